@@ -1,0 +1,18 @@
+# assets: host programs that make what the board shows. Heap, exceptions and big libraries are welcome.
+find_package(Eigen3 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+add_library(caryatid_host_libraries INTERFACE)
+target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
+  $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES> /usr/include/stb)
+# Rooms inside bake: human (import of the base human), simplify, face (FAT), body, texture, pack.
+file(GLOB_RECURSE bake_sources CONFIGURE_DEPENDS assets/bake/*.cpp)
+file(GLOB_RECURSE tool_sources CONFIGURE_DEPENDS assets/tool/*.cpp)
+if(bake_sources)
+  add_library(caryatid_bake STATIC ${bake_sources})
+  target_link_libraries(caryatid_bake PUBLIC caryatid_agent caryatid_host_libraries
+    PRIVATE caryatid_flags)
+endif()
+if(tool_sources)
+  add_executable(caryatid-tool ${tool_sources})
+  target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_flags)
+endif()

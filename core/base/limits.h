@@ -1,0 +1,21 @@
+#pragma once
+// Every capacity of the agent in one place, each with the sum that justifies it.
+#include <cstddef>
+
+namespace caryatid {
+
+// Joints: 94 of H-Anim LOA3 (body) + 2 eyeballs + jaw + 4 tongue = 101; rounded up.
+inline constexpr std::size_t kMaxJoints = 112;
+// Bones a draw can hold: 30 * 3 vec4 + 24 reserved stays under the 128 vec4 of GLES 2.0.
+inline constexpr std::size_t kMaxBonesPerDraw = 30;
+// Objects of a character: skin head, body, 2 hands, 2 eyes, teeth, tongue, brows, lashes, hair (2),
+// garments and shoes (6), panels and captions (6); rounded up.
+inline constexpr std::size_t kMaxObjects = 32;
+inline constexpr std::size_t kMaxMaterials = 32;
+inline constexpr std::size_t kMaxTextures = 24;
+inline constexpr std::size_t kMaxDrawItems = 64;
+static_assert(kMaxDrawItems >= 2 * kMaxObjects);  // Hair is drawn in two passes at most.
+// 16-bit indices: VC4 truncates longer ones.
+inline constexpr std::size_t kMaxVerticesPerObject = 65535;
+
+}  // namespace caryatid
