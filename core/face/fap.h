@@ -12,8 +12,8 @@ inline constexpr int kFapCount = 68;
 inline constexpr int kFapViseme = 1;
 inline constexpr int kFapExpression = 2;
 
-// FAP 1: two of 15 visemes (0 = none) blended: (63 - blend)/63 of the first with blend/63 of the
-// second.
+// FAP 1: two of 15 visemes (0 = none): blend/63 of the first and 1 - blend/63 of the second, so 63
+// is the first alone.
 struct VisemeField {
   std::uint8_t first = 0;   // 0..14
   std::uint8_t second = 0;  // 0..14
