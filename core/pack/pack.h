@@ -52,7 +52,7 @@ enum class SectionId : std::uint32_t {
   versions = fourcc('V', 'E', 'R', 'T'),        // Vertex: every vertex version once, by object,
                                                 // base vertices first, then in split order
   base_indices = fourcc('I', 'N', 'D', 'X'),    // u16 triples of every object's base mesh
-  splits = fourcc('S', 'P', 'L', 'T'),          // Split records, see core/mesh
+  splits = fourcc('S', 'P', 'L', 'T'),          // Split, by object, coarse to fine
   split_data = fourcc('S', 'P', 'L', 'D'),      // u16 words that splits refer to
   channels = fourcc('C', 'H', 'A', 'N'),        // Channel: pieces of the FAT
   fat_first = fourcc('F', 'A', 'T', 'F'),       // u32 a vertex version, + 1: its first Move
@@ -156,6 +156,31 @@ struct Vertex {
   std::uint8_t weight[4];  // Sum 255.
 };
 static_assert(sizeof(Vertex) == 28);
+
+// One step of detail, from coarse to fine: a vertex splits in two (up), or the two collapse into
+// one (down). Applied by core/mesh/progressive.h, which keeps for every object live vertices in
+// slots [0, n) and live triangles in [0, t). Its words in `split_data` are, in this order:
+//   changed_count x {slot, version before}    slots whose version changes; after it is
+//   first_version
+//                                             + i. Position moved, so every wedge of it is here
+//   added_vertices x {parent slot}            new slots n, n+1 with the versions that follow
+//   added_triangles x {slot, slot, slot}      new triangles t, t+1, finer slots already in them
+//   moved_count x {triangle}                  live triangles in which a parent slot becomes its new
+//                                             slot (exactly one corner each)
+// Versions count from Object::first_version, slots and triangles from the object's own 0.
+// With kReorder the record instead permutes the live triangles, to keep the vertex cache of the GPU
+// busy: all counts are 0 and the words are {t} followed by t x {place of it before}.
+enum SplitFlags : std::uint8_t { kReorder = 1 };
+struct Split {
+  std::uint32_t data;           // First word, counted from the start of `split_data`.
+  std::uint16_t first_version;  // Of changed_count + added_vertices versions.
+  std::uint16_t moved_count;
+  std::uint8_t changed_count;    // 0..2 (0: the vertex that stays is locked)
+  std::uint8_t added_vertices;   // 1..2 (2: along a texture seam)
+  std::uint8_t added_triangles;  // 1..2 (1: at a border)
+  std::uint8_t flags;
+};
+static_assert(sizeof(Split) == 12);
 
 // A piece of a face animation table (FAT): FAP `fap` drives the moves that name this channel by
 //   c = clamp((value - from) / (to - from), 0, 1)   with values in the FAP's own unit.

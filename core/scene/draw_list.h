@@ -7,23 +7,13 @@
 #include "core/base/fixed.h"
 #include "core/base/limits.h"
 #include "core/base/vec.h"
+#include "core/mesh/vertex.h"
 
 namespace caryatid::scene {
 
-// The part of a vertex that changes while the person moves; the CPU keeps it, the GPU gets patches.
-struct DynamicVertex {
-  Vec3 position_m;  // Rest space after FAT deformation and geomorph.
-  std::int8_t normal[4];
-};
-static_assert(sizeof(DynamicVertex) == 16);
-
-// The part that changes only when a level of detail does.
-struct StaticVertex {
-  std::uint16_t uv[2];
-  std::uint8_t bone[4];
-  std::uint8_t weight[4];
-};
-static_assert(sizeof(StaticVertex) == 12);
+using mesh::DirtyRange;
+using mesh::DynamicVertex;
+using mesh::StaticVertex;
 
 // The live mesh of one object: buffers of fixed capacity of which a prefix is in use.
 struct MeshView {
@@ -34,11 +24,7 @@ struct MeshView {
   std::uint32_t triangle_count = 0;
 };
 
-// Ranges that differ from the frame before; [0,0) when nothing does. The renderer uploads just
-// these.
-struct DirtyRange {
-  std::uint32_t first = 0, count = 0;
-};
+// Ranges that differ from the frame before; the renderer uploads just these.
 struct MeshPatch {
   std::uint16_t object = 0;            // Index of the object in the pack.
   DirtyRange dynamic, fixed, indices;  // In elements.
