@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/mesh/progressive.h"
 #include "core/mesh/split.h"
