@@ -26,6 +26,9 @@ struct Influence {
 struct Mesh {
   std::vector<Vec3> position_m;
   std::vector<Vec3> normal;
+  // How much of the sky around the vertex its own body hides at rest: 0 open .. 1 closed. Filled by
+  // the bake once all objects stand; empty counts as open.
+  std::vector<float> occlusion;
   std::vector<Vec2> uv;  // v runs downwards, as image rows do.
   std::vector<Influence> influence;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // Counter-clockwise seen from outside.

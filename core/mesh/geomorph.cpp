@@ -26,11 +26,11 @@ Vec3 position(const pack::Vertex& v) { return {v.position_m[0], v.position_m[1],
 
 DynamicVertex LiveMesh::rest(std::uint32_t slot) const {
   const pack::Vertex& a = source_.versions[version_[slot]];
-  DynamicVertex out{position(a), {a.normal[0], a.normal[1], a.normal[2], 0}};
+  DynamicVertex out{position(a), {a.normal[0], a.normal[1], a.normal[2], a.normal[3]}};
   if (other_[slot] == kNoVersion) return out;
   const pack::Vertex& b = source_.versions[other_[slot]];
   out.position_m = (1.0f - weight_) * position(a) + weight_ * position(b);
-  for (int i = 0; i < 3; ++i) out.normal[i] = blend(a.normal[i], b.normal[i], weight_);
+  for (int i = 0; i < 4; ++i) out.normal[i] = blend(a.normal[i], b.normal[i], weight_);
   return out;
 }
 

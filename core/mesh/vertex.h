@@ -11,7 +11,7 @@ namespace caryatid::mesh {
 // What moves while the person moves. The CPU writes it, the GPU gets the ranges that changed.
 struct DynamicVertex {
   Vec3 position_m;        // Rest space, after geomorph and FAT deformation, before skinning.
-  std::int8_t normal[4];  // Signed normalised; [3] is 0.
+  std::int8_t normal[4];  // Signed normalised; [3]: ambient occlusion, 0 open .. 127 closed.
 };
 static_assert(sizeof(DynamicVertex) == 16);
 

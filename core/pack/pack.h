@@ -150,7 +150,7 @@ struct Object {
 // One version of a vertex. A vertex that takes part in a collapse has a version before and after.
 struct Vertex {
   float position_m[3];
-  std::int8_t normal[4];   // Signed normalised; [3] is 0.
+  std::int8_t normal[4];   // Signed normalised; [3]: ambient occlusion, 0 open .. 127 closed.
   std::uint16_t uv[2];     // Unsigned normalised; v runs downwards as texel rows are stored.
   std::uint8_t bone[4];    // Index into Object::bone.
   std::uint8_t weight[4];  // Sum 255.

@@ -38,32 +38,42 @@ struct DrawItem {
   std::uint16_t bone_count = 0;
 };
 
-// Light of the kiosk: a soft key, a fill, a rim, and an ambient from above and below. Linear
-// colour.
+// A light without distance. Linear colour, 1 lights a white matt surface to white.
 struct Light {
   Vec3 direction{0, 0, 1};  // Towards the light, unit, world space.
   Vec3 color{1, 1, 1};
 };
 
 struct Camera {
-  Mat4 view{1.0f};
-  Mat4 projection{1.0f};
+  Mat4 view{1.0f};        // World to eye space: right-handed, looks along -Z.
+  Mat4 projection{1.0f};  // To GL clip space, z in [-w, w].
   Vec3 position_m{0};
 };
 
+// What a fragment of the person costs; chosen by core/lod from what the GPU can do.
 enum class Shading : std::uint8_t { cheapest, per_vertex, per_pixel };
+
+// A soft dark patch on the floor where feet meet it: an ellipse that fades to its rim.
+struct FloorShadow {
+  Vec3 center_m{0};
+  float half_width_m = 0.0f;  // Along X.
+  float half_depth_m = 0.0f;  // Along Z.
+  float strength = 0.0f;      // Of the centre: 0 nothing .. 1 black.
+};
 
 struct DrawList {
   Camera camera;
-  Light key, fill, rim;
+  Light key, fill, rim;  // Soft key, fill from the other side, rim from behind.
   Vec3 ambient_up{0.3f}, ambient_down{0.2f};
   Vec3 background_top{0.0f}, background_bottom{0.0f};  // Linear.
-  float render_scale = 1.0f;                           // Of the display's width and height.
+  float render_scale = 1.0f;  // Of the display's width and height, 0.25..1.
   Shading shading = Shading::per_pixel;
+  FixedVector<FloorShadow, 4> floor_shadows;
   std::span<const MeshView> meshes;  // By object index.
   FixedVector<MeshPatch, kMaxObjects> patches;
-  FixedVector<DrawItem, kMaxDrawItems>
-      items;  // In drawing order: opaque front to back, then alpha.
+  // In drawing order: opaque front to back, then alpha inside out (lashes and brows, then hair),
+  // then corneas. A renderer may draw an alpha item in two passes.
+  FixedVector<DrawItem, kMaxDrawItems> items;
   FixedVector<Affine, kMaxDrawItems * kMaxBonesPerDraw> bones;
 };
 
