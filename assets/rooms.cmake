@@ -1,4 +1,5 @@
-# assets: host programs that make what the board shows. Heap, exceptions and big libraries are welcome.
+# assets: host programs that make what the board shows.
+# Heap, exceptions and big libraries are welcome.
 find_package(Eigen3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 add_library(caryatid_host_libraries INTERFACE)

@@ -1,4 +1,5 @@
-# core: the agent itself. base <- pack <- mesh <- face, body <- stream, emotion, speech <- scene <- lod <- agent
+# core: the agent itself.
+# base <- pack <- mesh <- face, body <- stream, emotion, speech <- scene <- lod <- agent
 find_package(glm REQUIRED)
 add_library(caryatid_glm INTERFACE)
 target_include_directories(caryatid_glm SYSTEM INTERFACE
