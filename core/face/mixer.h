@@ -1,0 +1,39 @@
+#pragma once
+// Joins what the agent feels, says and does with its face into the one frame that is shown:
+// calm face + emotion, beneath speech, beneath a stream; idle life on top; then combinations that
+// collide are resolved and every FAP is brought into what this face can do.
+#include "core/face/fap.h"
+#include "core/face/fat.h"
+
+namespace caryatid::face {
+
+// All frames are optional (nullptr: absent) and borrowed for the call. Every frame should have been
+// through fill_missing(); FAPs 1 and 2 must have been expanded (visemes.h,
+// core/emotion/profiles.h).
+struct MixJob {
+  const FapFrame* rest = nullptr;  // The calm face of the pack; the MPEG-4 neutral looks startled.
+  const FapFrame* emotion = nullptr;  // Added to `rest`.
+  // Visemes. `speech_strength` 0..1 fades them in and out; at 1 they own the vertical lip FAPs and
+  // the jaw, emotion keeps 40 % of its other mouth FAPs (emotions.md 3.4) and all of the rest.
+  const FapFrame* speech = nullptr;
+  float speech_strength = 0.0f;
+  // FAPs present here replace everything above: MPEG-4 streams are absolute.
+  const FapFrame* stream = nullptr;
+  // Added on top: gaze, head sway, breath. Its lid FAPs 19-22 are blinks: 0 leaves the lid, 1024
+  // closes it from wherever it is.
+  const FapFrame* idle = nullptr;
+  const FapLimits* limits = nullptr;  // Required.
+
+  // A frame with every FAP 3..68 present and finite, within the limits. Lids that no stream moves
+  // follow the vertical gaze. O(68).
+  FapFrame run() const;
+};
+
+// Moves inner lips that would pass through each other to where they meet, each by half of the
+// overlap; the outer contour goes along. FAPs 4, 5, 8-11 and 51, 52, 55-58 change.
+void seal_lips(FapFrame& frame);
+
+// Lids that would pass through each other meet: the upper lid gives way. FAPs 19, 20 change.
+void seal_lids(FapFrame& frame);
+
+}  // namespace caryatid::face
