@@ -1,0 +1,118 @@
+#include "core/lod/stage_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace caryatid::lod {
+namespace {
+
+constexpr float kGainMin = 0.125f, kGainMax = 8.0f;
+constexpr float kVarianceMin = 0.02f * 0.02f, kVarianceMax = 0.12f * 0.12f;
+constexpr float kWalk = 5e-7f;    // Variance that a gain gains per frame: settles in ~50 frames.
+constexpr float kClipFit = 2.5f;  // Deviations.
+constexpr float kClipRun = 6.0f;
+// CUSUM: allowance k and threshold h in deviations. False alarms of normal noise come once in about
+// exp(2 k h) frames: 0.75 and 9 give 7e5, that is hours.
+constexpr float kAllowance = 0.75f;
+constexpr float kThreshold = 9.0f, kThresholdLate = 5.0f, kThresholdEvidence = 4.0f;
+constexpr float kThresholdDown = 12.0f;  // No hurry: nothing is late while it is cheaper.
+constexpr int kLateWindow = 120, kProbeMax = 3600 * 60;
+
+}  // namespace
+
+void StageModel::Run::add(float z, float e) {
+  score = std::max(0.0f, score + std::min(z, kClipRun) - kAllowance);
+  if (score <= 0.0f) {
+    *this = {};
+    return;
+  }
+  sum += e;
+  largest = frames == 0 ? e : std::max(largest, e);
+  ++frames;
+}
+
+float StageModel::Run::mean_ratio() const {
+  if (frames < 2) return 1.0f + std::max(sum, 0.0f);
+  return 1.0f + std::max((sum - largest) / static_cast<float>(frames - 1), 0.0f);
+}
+
+float StageModel::predict(const Terms& x) const {
+  return gain_[0] * x[0] + gain_[1] * x[1] + gain_[2] * x[2];
+}
+
+float StageModel::deviation() const { return std::sqrt(variance_); }
+
+float StageModel::learn(const Terms& x, float measured_us, bool late, bool evidence) {
+  const float predicted = std::max(predict(x), 1.0f);
+  const float ratio = std::clamp(measured_us, 1.0f, 1e7f) / predicted;
+  const float e = ratio >= 1.0f ? ratio - 1.0f : 1.0f - 1.0f / ratio;  // Symmetric in the ratio.
+  const float deviation_now = deviation();
+  const float z = e / deviation_now;
+  up_.add(z, e);
+  down_.add(-z, -e);
+  const bool risen = up_.score > kThreshold ||
+                     (late && up_.frames >= 2 && up_.score > kThresholdLate) ||
+                     (evidence && up_.score > kThresholdEvidence);
+  if (risen || down_.score > kThresholdDown) {
+    const float factor = risen ? up_.mean_ratio() : 1.0f / down_.mean_ratio();
+    scale(factor);
+    up_ = down_ = {};
+    return factor;
+  }
+  fit(x, predicted, std::clamp(e, -kClipFit * deviation_now, kClipFit * deviation_now) * predicted);
+  const float clipped = std::clamp(e, -3.0f * deviation_now, 3.0f * deviation_now);
+  variance_ =
+      std::clamp(variance_ + 0.01f * (clipped * clipped - variance_), kVarianceMin, kVarianceMax);
+  return 1.0f;
+}
+
+void StageModel::fit(const Terms& x, float predicted_us, float innovation_us) {
+  Terms px{};
+  for (std::size_t i = 0; i < kTermCount; ++i)
+    for (std::size_t j = 0; j < kTermCount; ++j) px[i] += covariance_[i * kTermCount + j] * x[j];
+  const float noise = variance_ * predicted_us * predicted_us;
+  const float scale_down = 1.0f / (x[0] * px[0] + x[1] * px[1] + x[2] * px[2] + noise);
+  for (std::size_t i = 0; i < kTermCount; ++i) {
+    gain_[i] = std::clamp(gain_[i] + px[i] * scale_down * innovation_us, kGainMin, kGainMax);
+    for (std::size_t j = 0; j < kTermCount; ++j)
+      covariance_[i * kTermCount + j] -= px[i] * px[j] * scale_down;
+  }
+  for (std::size_t i = 0; i < kTermCount; ++i) {
+    float& diagonal = covariance_[i * kTermCount + i];
+    diagonal = std::max(diagonal, 0.0f) + kWalk;
+    if (diagonal <= kPrior) continue;
+    const float shrink = std::sqrt(kPrior / diagonal);  // Row and column: stays positive definite.
+    for (std::size_t j = 0; j < kTermCount; ++j) {
+      covariance_[i * kTermCount + j] *= shrink;
+      covariance_[j * kTermCount + i] *= shrink;
+    }
+  }
+}
+
+void StageModel::learn_bound(const Terms& x, float bound_us, bool late) {
+  const float predicted = std::max(predict(x), 1.0f);
+  const float bound = std::max(bound_us, 1.0f);
+  if (!late) {
+    since_late_ = std::min(since_late_ + 1, 1 << 20);
+    if (predicted > bound) scale(std::max(bound / predicted, 0.98f));
+    if (++calm_ < probe_frames_) return;
+    calm_ = 0;
+    scale(0.96f);
+    return;
+  }
+  const bool again = since_late_ < kLateWindow;
+  const bool in_a_row = since_late_ == 0;
+  since_late_ = 0;
+  calm_ = 0;
+  if (!again) return;  // One late frame may be a spike.
+  probe_frames_ = std::min(2 * probe_frames_, kProbeMax);
+  const float least = std::min(1.05f * bound / predicted, 2.0f);
+  scale(std::max(in_a_row ? 1.5f : 1.06f, least));
+}
+
+void StageModel::scale(float factor) {
+  for (float& g : gain_) g = std::clamp(g * factor, kGainMin, kGainMax);
+  slowdown_ = std::clamp(slowdown_ * factor, kGainMin, kGainMax);
+}
+
+}  // namespace caryatid::lod
