@@ -13,8 +13,6 @@ constexpr float kAnglesPerRadian = 1e5f;  // FAP and BAP angles are 1e-5 rad.
 
 // Closing, held and opening times of a blink (spontaneous blinks, VanderWerf et al. 2003).
 constexpr float kBlinkClose_s = 0.08f, kBlinkHold_s = 0.03f, kBlinkOpen_s = 0.16f;
-// FAP units of IRISD (1024 = the whole neutral opening) that upper and lower lid take in a blink.
-constexpr float kLidUpperShut = 905.0f, kLidLowerShut = 119.0f;
 
 float smooth(float t) { return t * t * (3.0f - 2.0f * t); }
 
@@ -100,22 +98,19 @@ void IdleLife::step(float dt_s, float attention) {
   }
 }
 
-void IdleLife::apply(face::FapFrame* faps) const {
+face::FapFrame IdleLife::face() const {
+  face::FapFrame faps;
   const float yaw = head_gaze_.yaw_rad + head_yaw_.value() * 1.3f * kDegree;
   const float pitch = head_gaze_.pitch_rad + head_pitch_.value() * 0.9f * kDegree;
-  const auto add = [faps](int fap, float value) { faps->set(fap, faps->get(fap) + value); };
-  add(48, pitch * kAnglesPerRadian);
-  add(49, yaw * kAnglesPerRadian);
-  add(50, head_roll_.value() * 0.8f * kDegree * kAnglesPerRadian);
+  faps.set(48, pitch * kAnglesPerRadian);
+  faps.set(49, yaw * kAnglesPerRadian);
+  faps.set(50, head_roll_.value() * 0.8f * kDegree * kAnglesPerRadian);
   // The eyes hold their aim while the head moves (vestibulo-ocular reflex).
-  for (const int fap : {23, 24}) add(fap, (gaze_.yaw_rad - yaw) * kAnglesPerRadian);
-  for (const int fap : {25, 26}) add(fap, (gaze_.pitch_rad - pitch) * kAnglesPerRadian);
-  for (const int fap : {31, 32, 33, 34}) add(fap, brow_.value() * 9.0f);
-  const float b = blinker_.closure();
-  for (const int fap : {19, 20})
-    faps->set(fap, faps->get(fap) + (kLidUpperShut - faps->get(fap)) * b);
-  for (const int fap : {21, 22})
-    faps->set(fap, faps->get(fap) + (kLidLowerShut - faps->get(fap)) * b);
+  for (const int fap : {23, 24}) faps.set(fap, (gaze_.yaw_rad - yaw) * kAnglesPerRadian);
+  for (const int fap : {25, 26}) faps.set(fap, (gaze_.pitch_rad - pitch) * kAnglesPerRadian);
+  for (const int fap : {31, 32, 33, 34}) faps.set(fap, brow_.value() * 9.0f);
+  for (const int fap : {19, 20, 21, 22}) faps.set(fap, blinker_.closure() * 1024.0f);
+  return faps;
 }
 
 void IdleLife::apply(body::BapFrame* baps) const {

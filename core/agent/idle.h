@@ -71,8 +71,9 @@ class IdleLife {
   // True while the eyes are shut or jump: changes of detail hide here.
   bool covers_change() const { return blinker_.shut() || saccades_.large_jump(); }
 
-  // Adds gaze, head and breath to `faps`, then closes the lids from wherever they are.
-  void apply(face::FapFrame* faps) const;
+  // Gaze, head and brows to be added to the face; FAPs 19-22 say how far a blink shuts the lids
+  // from wherever they are, 0..1024 (face::MixJob::idle).
+  face::FapFrame face() const;
   // Adds breath and sway of the trunk.
   void apply(body::BapFrame* baps) const;
   float blink() const { return blinker_.closure(); }
