@@ -41,10 +41,7 @@ bool bind_section(const Section& s, std::span<std::byte> image, View* view) {
       return bind(&view->versions);
     case SectionId::base_indices:
       return bind(&view->base_indices);
-    case SectionId::splits:
-      view->split_stride_bytes = s.stride;
-      view->splits = typed<std::byte>(image, s);
-      return s.stride > 0;
+    case SectionId::splits: return bind(&view->splits);
     case SectionId::split_data:
       return bind(&view->split_data);
     case SectionId::channels:
@@ -193,11 +190,10 @@ Status Loader::count_refinement(const Chunk& chunk) {
       !s.ok())
     return refuse(static_cast<Refusal>(s.detail));
   if (id != SectionId::splits) return {};
-  const std::uint32_t stride = view_.split_stride_bytes;
-  if (chunk.section_offset % stride != 0 || chunk.bytes % stride != 0)
+  if (chunk.section_offset % sizeof(Split) != 0 || chunk.bytes % sizeof(Split) != 0)
     return refuse(Refusal::bad_split_order);
-  const std::uint32_t first = chunk.section_offset / stride;
-  const std::uint32_t count = chunk.bytes / stride;
+  const auto first = static_cast<std::uint32_t>(chunk.section_offset / sizeof(Split));
+  const auto count = static_cast<std::uint32_t>(chunk.bytes / sizeof(Split));
   for (std::size_t o = 0; o < view_.objects.size(); ++o) {
     const Object& object = view_.objects[o];
     if (first != object.first_split + splits_ready_[o] || splits_ready_[o] == object.split_count)

@@ -99,7 +99,6 @@ Status check_base_mesh(const View& view, const Object& o) {
 Status check_objects(const View& view) {
   if (view.objects.empty() || view.objects.size() > kMaxObjects)
     return refused(Refusal::bad_object);
-  const std::size_t split_count = view.splits.size() / view.split_stride_bytes;
   for (const Object& o : view.objects) {
     const bool ok =
         std::memchr(o.name, '\0', sizeof o.name) != nullptr && o.role <= ObjectRole::lash &&
@@ -111,7 +110,7 @@ Status check_objects(const View& view) {
         o.base_triangle_count <= o.max_triangle_count &&
         o.max_triangle_count < 4 * kMaxVerticesPerObject &&
         within(o.first_base_index, 3 * o.base_triangle_count, view.base_indices.size()) &&
-        within(o.first_split, o.split_count, split_count) && finite(o.center_m, 3) &&
+        within(o.first_split, o.split_count, view.splits.size()) && finite(o.center_m, 3) &&
         std::isfinite(o.radius_m);
     if (!ok) return refused(Refusal::bad_object);
     for (std::size_t b = 0; b < o.bone_count; ++b)
@@ -181,8 +180,7 @@ Status validate_elements(const View& view, SectionId section, std::uint32_t firs
 }
 
 Status validate_view(const View& view) {
-  if (view.character == nullptr || view.joints.empty() || view.split_stride_bytes == 0 ||
-      view.rest_face.size() != 69)
+  if (view.character == nullptr || view.joints.empty() || view.rest_face.size() != 69)
     return refused(Refusal::missing_section);
   CARYATID_TRY(check_character(view));
   CARYATID_TRY(check_joints(view));

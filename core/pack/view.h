@@ -17,8 +17,7 @@ struct View {
   std::span<const Object> objects;
   std::span<const Vertex> versions;
   std::span<const std::uint16_t> base_indices;
-  std::span<const std::byte> splits;  // Records of core/mesh; stride in split_stride_bytes.
-  std::uint32_t split_stride_bytes = 0;
+  std::span<const Split> splits;
   std::span<const std::uint16_t> split_data;
   std::span<const Channel> channels;
   std::span<const std::uint32_t> fat_first;  // versions.size() + 1 long.

@@ -40,7 +40,7 @@ class TinyPack {
     add(SectionId::objects, {o});
     add(SectionId::versions, std::vector<Vertex>(3, Vertex{{0, 1, 0}, {}, {}, {}, {255, 0, 0, 0}}));
     add(SectionId::base_indices, std::vector<std::uint16_t>{0, 1, 2});
-    add(SectionId::splits, std::vector<std::uint32_t>{});
+    add(SectionId::splits, std::vector<Split>{});
     add(SectionId::split_data, std::vector<std::uint16_t>{});
     add(SectionId::channels, {Channel{3, 0, 0, 100, 0, 0}});
     add(SectionId::fat_first, std::vector<std::uint32_t>{0, 1, 1, 1});

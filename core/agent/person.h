@@ -1,0 +1,88 @@
+#pragma once
+// The person that a pack describes, alive: meshes at their present level of detail, skeleton, face
+// tables. Takes the frame's FAPs and BAPs and gives what the scene needs to draw.
+//
+// Order of a frame: refine() as bytes arrive -> set_levels() or morph_to() -> show() -> meshes(),
+// joints(), collect_patches() for the draw list.
+#include <array>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/body/pose.h"
+#include "core/face/fat.h"
+#include "core/face/transforms.h"
+#include "core/mesh/progressive.h"
+#include "core/pack/loader.h"
+#include "core/scene/draw_list.h"
+
+namespace caryatid::agent {
+
+class Person {
+ public:
+  // Bytes that start() takes from the arena at most, the image not counted. O(objects).
+  static std::size_t arena_bytes(const pack::View& view);
+
+  // Builds the base level of every object; the pack's base part must be loaded. `view` is copied,
+  // its image borrowed. out_of_capacity: the arena is too small. corrupt_data: a base mesh is
+  // broken.
+  Status start(const pack::View& view, Arena& arena);
+
+  // Takes over splits that have arrived since the last call. corrupt_data: a record is broken; the
+  // object stays at the last good level and takes no more. O(new words).
+  Status refine(const pack::Loader& loader);
+
+  std::size_t object_count() const { return view_.objects.size(); }
+  std::uint32_t triangle_count() const;  // Live, of all objects.
+  // Finest level of every object within its number of triangles; at once or by geomorph.
+  void set_levels(std::span<const std::uint32_t> triangles);
+  void morph_to(std::span<const std::uint32_t> triangles, float duration_s);
+
+  // Deforms and poses. `faps` comes from face::MixJob; `place` moves the posed body in the world.
+  // Geomorphs advance by dt_s. O(live vertices + moves + joints).
+  void show(const face::FapFrame& faps, const body::BapFrame& baps, const Affine& place,
+            float dt_s);
+
+  // What to draw. Valid until the next call that changes the person.
+  std::span<const scene::MeshView> meshes() const { return {mesh_views_.data(), object_count()}; }
+  std::span<const Affine> joints() const { return {joints_.data(), view_.joints.size()}; }
+  // Ranges that changed since the last call, one patch for every object that did.
+  void collect_patches(FixedVector<scene::MeshPatch, kMaxObjects>* out);
+
+  const pack::View& view() const { return view_; }
+  const face::FapLimits& limits() const { return limits_; }
+  // The calm face beneath every emotion.
+  const face::FapFrame& rest_face() const { return rest_face_; }
+  // Where a feature point is now, in the world; rest position when the pack lacks it.
+  Vec3 feature_point_m(int group, int index) const;
+  // Vertices that show() deformed in the last frame, for the cost model.
+  std::uint32_t deformed_vertices() const { return deformed_; }
+
+ private:
+  struct Part {
+    mesh::LiveMesh mesh;
+    mesh::MeshSource source;
+    mesh::SplitChecker checker;
+    mesh::DirtyRange dirty;  // Of the dynamic vertices, by deformation.
+    std::uint32_t checked = 0;
+    bool broken = false;
+    bool deforms = false;  // Has moves at all.
+  };
+
+  void pose(const face::FapFrame& faps, const body::BapFrame& baps, const Affine& place);
+  void deform(const face::FapFrame& faps);
+  void refresh_views();
+
+  pack::View view_;
+  std::array<Part, kMaxObjects> parts_;
+  std::array<scene::MeshView, kMaxObjects> mesh_views_;
+  std::span<std::uint16_t> index_scratch_;
+  std::span<float> channel_weights_;
+  body::Skeleton skeleton_;
+  std::array<Affine, kMaxJoints> joints_;
+  face::FapLimits limits_;
+  face::FapFrame rest_face_;
+  face::TransformGeometry geometry_;
+  std::uint32_t deformed_ = 0;
+};
+
+}  // namespace caryatid::agent
