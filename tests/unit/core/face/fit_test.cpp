@@ -1,0 +1,118 @@
+#include "core/face/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/face/fap_fill.h"
+#include "core/face/fap_table.h"
+
+namespace caryatid::face {
+namespace {
+
+TEST(Fit, GivenFapsAreNeverTouched) {
+  FapFrame frame;
+  frame.set(6, 100);
+  frame.set(7, -30);
+  frame.set(53, 5);
+  fill_from_partners(&frame);
+  EXPECT_EQ(frame.get(6), 100.0f);
+  EXPECT_EQ(frame.get(7), -30.0f);
+  EXPECT_EQ(frame.get(53), 5.0f);
+}
+
+TEST(Fit, EmptyFrameStaysEmpty) {
+  FapFrame frame;
+  EXPECT_FALSE(fill_from_partners(&frame).any());
+  EXPECT_FALSE(frame.mask.any());
+}
+
+TEST(Fit, EveryFapWithAPartnerIsFilledFromIt) {
+  for (int fap = 3; fap <= kFapCount; ++fap) {
+    const int partner = fap_info(fap).partner;
+    if (partner == 0) continue;
+    FapFrame frame;
+    frame.set(fap, 42);
+    fill_from_partners(&frame);
+    EXPECT_TRUE(frame.has(partner)) << fap;
+    EXPECT_EQ(frame.get(partner), 42.0f) << fap;
+  }
+}
+
+TEST(Fit, CentreFapsHaveNoPartner) {
+  for (const int fap : {3, 14, 15, 16, 17, 18, 43, 47, 48, 63, 64}) {
+    FapFrame frame;
+    frame.set(fap, 42);
+    EXPECT_FALSE(fill_from_partners(&frame).any()) << fap;
+  }
+}
+
+TEST(Fit, OuterLipsFollowInnerAndBack) {
+  for (int inner = 4; inner <= 13; ++inner) {
+    FapFrame frame;
+    frame.set(inner, 70);
+    fill_from_partners(&frame);
+    EXPECT_EQ(frame.get(inner + 47), 70.0f) << inner;
+    FapFrame back;
+    back.set(inner + 47, -70);
+    fill_from_partners(&back);
+    EXPECT_EQ(back.get(inner), -70.0f) << inner;
+  }
+}
+
+// Upper middle lowered by 80, corners raised by 40 (= lowered by -40): the parabola through them
+// passes 3/4 * 80 - 1/4 * 40 = 50 below.
+TEST(Fit, QuarterPointsLieOnAParabola) {
+  FapFrame frame;
+  frame.set(4, 80);
+  frame.set(12, 40);
+  fill_from_partners(&frame);
+  EXPECT_EQ(frame.get(8), 50.0f);
+  EXPECT_EQ(frame.get(9), 50.0f);
+  EXPECT_EQ(frame.get(55), 50.0f);
+}
+
+TEST(Fit, QuarterFollowsTheMiddleAlone) {
+  FapFrame frame;
+  frame.set(52, 80);
+  fill_from_partners(&frame);
+  EXPECT_EQ(frame.get(57), 60.0f);
+  EXPECT_EQ(frame.get(10), 60.0f);
+  EXPECT_FALSE(frame.has(12));
+}
+
+TEST(Fit, StillLipSetCountsAsLeftOut) {
+  FapFrame frame;
+  for (int fap = 3; fap <= kFapCount; ++fap) frame.set(fap, 0);
+  frame.set(52, -200);
+  fill_from_partners(&frame);
+  EXPECT_EQ(frame.get(5), -200.0f);
+  EXPECT_EQ(frame.get(4), 0.0f);
+}
+
+TEST(Fit, AFilledFrameDoesNotChangeAgain) {
+  FapFrame frame;
+  frame.set(51, 10);
+  frame.set(57, 20);
+  frame.set(31, 30);
+  fill_from_partners(&frame);
+  const FapFrame once = frame;
+  EXPECT_FALSE(fill_from_partners(&frame).any());
+  EXPECT_EQ(frame.value, once.value);
+}
+
+TEST(FapLimits, OutsideValuesComeBackIntoTheirRange) {
+  FapFrame frame;
+  frame.set(3, 1e8f);
+  frame.set(4, -1e8f);
+  frame.set(5, std::numeric_limits<float>::quiet_NaN());
+  frame.set(19, 1080);
+  limit_to_coding_range(&frame);
+  EXPECT_EQ(frame.get(3), 4320.0f);
+  EXPECT_EQ(frame.get(4), -1200.0f);
+  EXPECT_EQ(frame.get(5), 0.0f);
+  EXPECT_EQ(frame.get(19), 1080.0f);
+}
+
+}  // namespace
+}  // namespace caryatid::face
