@@ -30,7 +30,8 @@ const Intentions& Agent::step(float dt_s, std::span<const ButtonEvent> events) {
   const float dt = dt_s > 0.0f ? std::min(dt_s, 0.25f) : 0.0f;
   since_press_s_ += dt;
   for (const ButtonEvent& e : events)
-    if (e.pressed && e.button < programme_->buttons.size()) press(programme_->buttons[e.button]);
+    if (e.pressed && e.button >= 1 && e.button <= programme_->buttons.size())
+      press(programme_->buttons[e.button - 1u]);
   feeling_.step(dt);
   const bool busy = since_press_s_ < kBusy_s || feeling_.current() != emotion::Emotion::calm;
   idle_.step(dt, since_press_s_ < 4.0f ? 1.0f : (busy ? 0.6f : 0.2f));

@@ -15,6 +15,8 @@ inline constexpr std::size_t kMaxMaterials = 32;
 inline constexpr std::size_t kMaxTextures = 24;
 inline constexpr std::size_t kMaxDrawItems = 64;
 static_assert(kMaxDrawItems >= 2 * kMaxObjects);  // Hair is drawn in two passes at most.
+// Buttons of the largest panel that we know of (12), and four for a remote control.
+inline constexpr std::size_t kMaxButtons = 16;
 // 16-bit indices: VC4 truncates longer ones.
 inline constexpr std::size_t kMaxVerticesPerObject = 65535;
 

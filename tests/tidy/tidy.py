@@ -63,14 +63,14 @@ MACHINE_PATH = re.compile("|".join("/" + name + "/" for name in ("work", "home",
 
 def tracked(root, suffixes=None):
     """Files of the tree as git sees them (new ones too); every file where there is no git."""
-    if (root / ".git").exists():
+    if (root / ".git").exists() and shutil.which("git"):
         names = subprocess.run(
             ["git", "-C", str(root), "-c", "safe.directory=*", "ls-files", "-co",
              "--exclude-standard"], check=True, capture_output=True, text=True).stdout.splitlines()
         files = [root / name for name in names]
     else:
         files = [f for f in root.rglob("*")
-                 if not {"build", "out"} & set(f.relative_to(root).parts)]
+                 if not {"build", "out", ".git", "__pycache__"} & set(f.relative_to(root).parts)]
     return sorted(f for f in files if f.is_file() and (suffixes is None or f.suffix in suffixes))
 
 

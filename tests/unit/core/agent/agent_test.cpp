@@ -28,7 +28,7 @@ TEST(Agent, ReactsInTheFrameOfThePress) {
   const Programme p = two_buttons();
   Agent agent(&p, 1);
   agent.step(kFrame_s, {});
-  const ButtonEvent press{0, true, 0};
+  const ButtonEvent press{1, true, 0};
   const Intentions& i = agent.step(kFrame_s, {&press, 1});
   EXPECT_EQ(i.emotion, emotion::Emotion::joy);
   EXPECT_GT(i.emotions[1], 0.05f);
@@ -38,7 +38,7 @@ TEST(Agent, ReactsInTheFrameOfThePress) {
 TEST(Agent, ReleasesAndUnknownButtonsDoNothing) {
   const Programme p = two_buttons();
   Agent agent(&p, 1);
-  const ButtonEvent events[] = {{0, false, 0}, {77, true, 0}};
+  const ButtonEvent events[] = {{1, false, 0}, {0, true, 0}, {77, true, 0}};
   EXPECT_EQ(agent.step(kFrame_s, events).emotion, emotion::Emotion::calm);
   EXPECT_FALSE(agent.step(kFrame_s, events).busy);
 }
@@ -46,7 +46,7 @@ TEST(Agent, ReleasesAndUnknownButtonsDoNothing) {
 TEST(Agent, ALongStallOrAWrongClockDoesNotMakeItJump) {
   const Programme p = two_buttons();
   Agent agent(&p, 1);
-  const ButtonEvent press{0, true, 0};
+  const ButtonEvent press{1, true, 0};
   agent.step(kFrame_s, {&press, 1});
   agent.step(3600.0f, {});
   EXPECT_EQ(agent.step(-5.0f, {}).emotion, emotion::Emotion::joy);
