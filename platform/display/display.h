@@ -1,0 +1,68 @@
+#pragma once
+// The service that owns the screen and the GL context drawn on. Backends: gbm (DRM/KMS, boards),
+// window (X11), surfaceless (no screen: servers, CI, the tool).
+//
+// A display makes its context current on the thread that opened it and stays on that thread.
+#include <cstdint>
+#include <memory>
+
+#include "core/base/status.h"
+#include "platform/buttons/buttons.h"
+#include "platform/error_line.h"
+
+namespace caryatid::platform {
+
+enum class DisplayKind : std::uint8_t { automatic, drm, window, surfaceless };
+
+struct DisplayOptions {
+  DisplayKind kind = DisplayKind::automatic;
+  std::uint32_t width = 800, height = 480;  // Wish; 16..4096. A screen may have its own mind.
+  std::uint8_t samples = 4;                 // Wish for multisampling of the surface; 0 none.
+  const char* title = "Caryatid";
+};
+
+// Why a display did not open or stopped: Status::detail.
+enum class DisplayFault : std::uint16_t {
+  none,
+  no_display_server,  // window: no X server answers.
+  no_egl,             // EGL or the platform extension is missing.
+  no_config,          // No usable framebuffer configuration.
+  no_context,         // The driver refuses GLES 2.
+  no_surface,
+  not_built,  // This build lacks the backend.
+  bad_size,
+  context_lost,  // GPU reset or device gone: open display and renderer again.
+};
+
+// What the world outside did since the last poll.
+struct DisplayEvents {
+  ButtonEvents buttons;  // Keys 1..9 of a window as buttons 1..9.
+  bool close_requested = false;
+  bool resized = false;  // width() and height() are new; tell the renderer.
+};
+
+using GlProc = void (*)();
+
+class Display {
+ public:
+  virtual ~Display() = default;
+  virtual const char* name() const = 0;
+  virtual std::uint32_t width() const = 0;
+  virtual std::uint32_t height() const = 0;
+  // False: there is no framebuffer 0; the renderer draws into one of its own.
+  virtual bool has_surface() const = 0;
+  // A GL function that is not in GLES 2.0, or nullptr.
+  virtual GlProc proc_address(const char* gl_name) const = 0;
+  // Collects events without blocking.
+  virtual Status poll(std::int64_t now_us, DisplayEvents& out) = 0;
+  // Shows what was drawn; on a screen waits for the next refresh where the driver does.
+  // device_lost (context_lost): everything on the GPU is gone.
+  virtual Status present() = 0;
+};
+
+// Opens the display asked for; `automatic` tries drm, then window where DISPLAY is set, then
+// surfaceless. On failure `out` is empty and `out_error` holds one line.
+Status open_display(const DisplayOptions& options, std::unique_ptr<Display>& out,
+                    ErrorLine& out_error);
+
+}  // namespace caryatid::platform
