@@ -1,0 +1,123 @@
+#include "core/emotion/profiles.h"
+
+#include <array>
+
+#include "core/face/interpolation.h"
+
+namespace caryatid::emotion {
+namespace {
+
+constexpr bool kMeasured = true, kQualitative = false;
+
+// Split of lid features F12, F13: 70 % upper, 30 % lower lid; of F14 and F15: half a side.
+// Anger: table 8-3 says raise_i_eyebrow(+), but table 8-4 measures lowered inner brows; minus it
+// is.
+constexpr std::array kAnger = {
+    ProfileEntry{4, -73, 51, kMeasured},      ProfileEntry{5, 60, 40, kQualitative},
+    ProfileEntry{19, -120, 40, kQualitative}, ProfileEntry{20, -120, 40, kQualitative},
+    ProfileEntry{31, -83, 48, kMeasured},     ProfileEntry{32, -85, 51, kMeasured},
+    ProfileEntry{33, -149, 40, kMeasured},    ProfileEntry{34, -144, 39, kMeasured},
+    ProfileEntry{35, -66, 35, kMeasured},     ProfileEntry{36, -70, 38, kMeasured},
+    ProfileEntry{37, 57, 28, kMeasured},      ProfileEntry{38, 58, 31, kMeasured},
+};
+
+constexpr std::array kSadness = {
+    ProfileEntry{12, -120, 60, kQualitative},   ProfileEntry{13, -120, 60, kQualitative},
+    ProfileEntry{18, 60, 40, kQualitative},     ProfileEntry{19, 107.1f, 78.4f, kMeasured},
+    ProfileEntry{20, 112.7f, 76.3f, kMeasured}, ProfileEntry{21, 45.9f, 33.6f, kMeasured},
+    ProfileEntry{22, 48.3f, 32.7f, kMeasured},  ProfileEntry{31, 85, 55, kMeasured},
+    ProfileEntry{32, 80, 54, kMeasured},        ProfileEntry{33, -30, 15, kQualitative},
+    ProfileEntry{34, -30, 15, kQualitative},    ProfileEntry{35, -30, 15, kQualitative},
+    ProfileEntry{36, -30, 15, kQualitative},    ProfileEntry{37, 28, 17.5f, kMeasured},
+    ProfileEntry{38, 28, 17.5f, kMeasured},
+};
+
+constexpr std::array kJoy = {
+    ProfileEntry{4, -271, 110, kMeasured},      ProfileEntry{6, 117, 49, kMeasured},
+    ProfileEntry{7, 117, 49, kMeasured},        ProfileEntry{12, 250, 80, kQualitative},
+    ProfileEntry{13, 250, 80, kQualitative},    ProfileEntry{19, 177.8f, 93.1f, kMeasured},
+    ProfileEntry{20, 169.4f, 85.4f, kMeasured}, ProfileEntry{21, 76.2f, 39.9f, kMeasured},
+    ProfileEntry{22, 72.6f, 36.6f, kMeasured},  ProfileEntry{33, 24, 22, kMeasured},
+    ProfileEntry{34, 25, 22, kMeasured},        ProfileEntry{41, 150, 50, kQualitative},
+    ProfileEntry{42, 150, 50, kQualitative},    ProfileEntry{53, 117, 49, kMeasured},
+    ProfileEntry{54, 117, 49, kMeasured},
+};
+
+constexpr std::array kDisgust = {
+    ProfileEntry{4, -234, 109, kMeasured},       ProfileEntry{5, 177, 108, kMeasured},
+    ProfileEntry{6, -60, 30, kQualitative},      ProfileEntry{7, -60, 30, kQualitative},
+    ProfileEntry{19, 142.1f, 103.6f, kMeasured}, ProfileEntry{20, 147.7f, 101.5f, kMeasured},
+    ProfileEntry{21, 60.9f, 44.4f, kMeasured},   ProfileEntry{22, 63.3f, 43.5f, kMeasured},
+    ProfileEntry{33, -80, 53, kMeasured},        ProfileEntry{34, -82, 54, kMeasured},
+    ProfileEntry{37, 26, 17, kMeasured},         ProfileEntry{38, 26, 17, kMeasured},
+    ProfileEntry{63, 80, 40, kQualitative},
+};
+
+// Lips of fear and surprise: F11 is the gap between the outer lips and FAP 3 moves no lip, so the
+// gap is F4 on the lower lip (FAP 5) and the rest on the upper one (FAP 4); the jaw follows by F11.
+constexpr std::array kFear = {
+    ProfileEntry{3, 291, 189, kMeasured},        ProfileEntry{4, -73, 54, kMeasured},
+    ProfileEntry{5, -218, 135, kMeasured},       ProfileEntry{19, -170.8f, 88.2f, kMeasured},
+    ProfileEntry{20, -174.3f, 89.6f, kMeasured}, ProfileEntry{21, -73.2f, 37.8f, kMeasured},
+    ProfileEntry{22, -74.7f, 38.4f, kMeasured},  ProfileEntry{31, 104, 69, kMeasured},
+    ProfileEntry{32, 111, 72, kMeasured},        ProfileEntry{33, 72, 58, kMeasured},
+    ProfileEntry{34, 75, 60, kMeasured},         ProfileEntry{37, 60, 30, kQualitative},
+    ProfileEntry{38, 60, 30, kQualitative},
+};
+
+constexpr std::array kSurprise = {
+    ProfileEntry{3, 885, 316, kMeasured},        ProfileEntry{4, -90, 40, kMeasured},
+    ProfileEntry{5, -795, 276, kMeasured},       ProfileEntry{6, -41, 19.5f, kMeasured},
+    ProfileEntry{7, -41, 19.5f, kMeasured},      ProfileEntry{19, -177.8f, 58.1f, kMeasured},
+    ProfileEntry{20, -176.4f, 56.7f, kMeasured}, ProfileEntry{21, -76.2f, 24.9f, kMeasured},
+    ProfileEntry{22, -75.6f, 24.3f, kMeasured},  ProfileEntry{31, 224, 103, kMeasured},
+    ProfileEntry{32, 211, 97, kMeasured},        ProfileEntry{33, 144, 64, kMeasured},
+    ProfileEntry{34, 142, 62, kMeasured},        ProfileEntry{35, 54, 31, kMeasured},
+    ProfileEntry{36, 55, 31, kMeasured},         ProfileEntry{37, -43, 30, kMeasured},
+    ProfileEntry{38, -43, 30, kMeasured},        ProfileEntry{53, -41, 19.5f, kMeasured},
+    ProfileEntry{54, -41, 19.5f, kMeasured},
+};
+
+}  // namespace
+
+std::span<const ProfileEntry> profile(Emotion e) {
+  switch (e) {
+    case Emotion::joy:
+      return kJoy;
+    case Emotion::sadness:
+      return kSadness;
+    case Emotion::anger:
+      return kAnger;
+    case Emotion::fear:
+      return kFear;
+    case Emotion::disgust:
+      return kDisgust;
+    case Emotion::surprise:
+      return kSurprise;
+    case Emotion::calm:
+      break;
+  }
+  return {};
+}
+
+face::FapFrame peak_face(Emotion e) {
+  face::FapFrame out;
+  for (const ProfileEntry& p : profile(e))
+    out.set(p.fap, p.mean > 0.0f ? p.mean + p.deviation : p.mean - p.deviation);
+  face::fill_missing(out);
+  return out;
+}
+
+face::FapFrame expression(const Weights& weights) {
+  face::FapFrame out;
+  for (int fap = 3; fap <= face::kFapCount; ++fap) out.set(fap, 0.0f);
+  for (std::size_t i = 1; i < kEmotionCount; ++i) {
+    if (weights[i] == 0.0f) continue;
+    const face::FapFrame peak = peak_face(static_cast<Emotion>(i));
+    for (int fap = 3; fap <= face::kFapCount; ++fap)
+      if (peak.has(fap)) out.set(fap, out.get(fap) + weights[i] * peak.get(fap));
+  }
+  return out;
+}
+
+}  // namespace caryatid::emotion

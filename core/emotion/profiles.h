@@ -1,0 +1,30 @@
+#pragma once
+// The six archetypal expressions as FAP profiles: mean and standard deviation of thesis table 8-4
+// with MPEG-4 signs, the qualitative FAPs of table 8-3 beside them. Values are in the FAP's own
+// FAPU/1024.
+#include <span>
+
+#include "core/emotion/emotion.h"
+#include "core/face/fap.h"
+
+namespace caryatid::emotion {
+
+struct ProfileEntry {
+  std::uint8_t fap;
+  float mean;
+  float deviation;  // Of the measured sample; for qualitative FAPs our own margin.
+  bool measured;    // Table 8-4; otherwise table 8-3 with an amplitude of ours.
+};
+
+// FAPs of one emotion, ascending. Empty for calm.
+std::span<const ProfileEntry> profile(Emotion e);
+
+// The face of one emotion at full strength: mean + one deviation (away from zero), which is where
+// observers name the pictures reliably; a weight of 0.5..0.7 shows the mean. FAPs that the profile
+// leaves out and that follow from others (outer lips, quarter points) are filled in.
+face::FapFrame peak_face(Emotion e);
+
+// The sum of all emotions' peak faces by weight. O(emotions up * 68).
+face::FapFrame expression(const Weights& weights);
+
+}  // namespace caryatid::emotion

@@ -1,0 +1,57 @@
+#include "core/emotion/profiles.h"
+
+#include <gtest/gtest.h>
+
+namespace caryatid::emotion {
+namespace {
+
+TEST(Profiles, EveryEmotionHasItsFapsInOrder) {
+  for (std::size_t i = 1; i < kEmotionCount; ++i) {
+    const auto p = profile(static_cast<Emotion>(i));
+    ASSERT_FALSE(p.empty());
+    for (std::size_t k = 1; k < p.size(); ++k)
+      EXPECT_LT(p[k - 1].fap, p[k].fap) << kEmotionNames[i];
+  }
+  EXPECT_TRUE(profile(Emotion::calm).empty());
+}
+
+TEST(Profiles,
+     SignsAreThoseOfTheThesis) {  // Table 8-3, with table 8-4's measured inner brows of anger.
+  EXPECT_LT(peak_face(Emotion::anger).get(31), 0.0f);
+  EXPECT_GT(peak_face(Emotion::anger).get(37), 0.0f);
+  EXPECT_GT(peak_face(Emotion::sadness).get(31), 0.0f);
+  EXPECT_LT(peak_face(Emotion::sadness).get(12), 0.0f);
+  EXPECT_GT(peak_face(Emotion::joy).get(6), 0.0f);
+  EXPECT_GT(peak_face(Emotion::joy).get(41), 0.0f);
+  EXPECT_LT(peak_face(Emotion::disgust).get(4), 0.0f);
+  EXPECT_LT(peak_face(Emotion::fear).get(19), 0.0f);
+  EXPECT_GT(peak_face(Emotion::surprise).get(3), 885.0f);
+}
+
+TEST(Profiles, LipGapOfOpenMouthsIsTheMeasuredFeatureF11) {
+  for (const auto& [e, f11] :
+       {std::pair{Emotion::fear, 291.0f}, std::pair{Emotion::surprise, 885.0f}}) {
+    float gap = 0.0f;
+    for (const ProfileEntry& p : profile(e))
+      if (p.fap == 4 || p.fap == 5) gap -= p.mean;
+    EXPECT_NEAR(gap, f11, 1.0f);
+  }
+}
+
+TEST(Profiles, OuterLipsAreFilledFromInner) {
+  const face::FapFrame joy = peak_face(Emotion::joy);
+  EXPECT_TRUE(joy.has(51));
+  EXPECT_TRUE(joy.has(59));
+}
+
+TEST(Profiles, ExpressionIsLinearInItsWeights) {
+  Weights half{}, full{};
+  half[index_of(Emotion::fear)] = 0.5f;
+  full[index_of(Emotion::fear)] = 1.0f;
+  for (int fap = 3; fap <= face::kFapCount; ++fap)
+    EXPECT_FLOAT_EQ(2.0f * expression(half).get(fap), expression(full).get(fap));
+  EXPECT_EQ(expression(Weights{}).get(31), 0.0f);
+}
+
+}  // namespace
+}  // namespace caryatid::emotion
