@@ -1,0 +1,43 @@
+#include "firmware-app/metrics.h"
+
+#include <algorithm>
+
+namespace caryatid::app {
+
+bool MetricsFile::open(const char* path) {
+  file_ = std::fopen(path, "w");
+  if (file_ == nullptr) return false;
+  return std::setvbuf(file_, buffer_, _IOFBF, sizeof buffer_) == 0;
+}
+
+void MetricsFile::close() {
+  if (file_ != nullptr) std::fclose(file_);
+  file_ = nullptr;
+}
+
+bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
+  if (file_ == nullptr) return true;
+  std::fprintf(file_, "{\"time_s\":%.4f,\"frame_ms\":%.3f,\"cpu_ms\":%.3f,", m.time_s, m.frame_ms,
+               m.cpu_ms);
+  if (m.gpu_ms < 0.0)
+    std::fputs("\"gpu_ms\":null,", file_);
+  else
+    std::fprintf(file_, "\"gpu_ms\":%.3f,", m.gpu_ms);
+  std::fprintf(file_, "\"late\":%s,\"triangles\":%u,\"lod\":{", m.late ? "true" : "false",
+               m.triangles);
+  const std::size_t objects = std::min(m.lod.size(), pack.objects.size());
+  for (std::size_t o = 0; o < objects; ++o)
+    std::fprintf(file_, "%s\"%s\":%u", o > 0 ? "," : "", pack.objects[o].name, m.lod[o]);
+  std::fprintf(file_,
+               "},\"render_scale\":%.3f,\"shading\":%d,\"emotion\":\"%s\",\"viseme\":%d,"
+               "\"allocations_since_seal\":%llu,\"arena_bytes_used\":%llu}\n",
+               static_cast<double>(m.render_scale), m.shading,
+               emotion::kEmotionNames[emotion::index_of(m.emotion)].data(), m.viseme,
+               static_cast<unsigned long long>(m.allocations_since_seal),
+               static_cast<unsigned long long>(m.arena_bytes_used));
+  if (std::ferror(file_) == 0) return true;
+  close();
+  return false;
+}
+
+}  // namespace caryatid::app

@@ -1,0 +1,42 @@
+#pragma once
+// --metrics: JSON lines, one a frame, for caryatid-tool plot and for whoever watches the kiosk.
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+#include "core/emotion/emotion.h"
+#include "core/pack/view.h"
+
+namespace caryatid::app {
+
+struct FrameMetrics {
+  double time_s = 0.0;
+  double frame_ms = 0.0;  // From the frame before to this one.
+  double cpu_ms = 0.0;
+  double gpu_ms = -1.0;  // Negative: the driver has no timer; null in the file.
+  bool late = false;
+  std::uint32_t triangles = 0;
+  std::span<const std::uint32_t> lod;  // Triangles by object of the pack.
+  float render_scale = 1.0f;
+  int shading = 0;
+  emotion::Emotion emotion = emotion::Emotion::calm;
+  int viseme = 0;
+  std::uint64_t allocations_since_seal = 0;
+  std::uint64_t arena_bytes_used = 0;
+};
+
+// Opened before memory is sealed; write() formats into a buffer of its own.
+class MetricsFile {
+ public:
+  ~MetricsFile() { close(); }
+  bool open(const char* path);
+  // False once, when the disk refuses; then writes nothing more.
+  bool write(const FrameMetrics& m, const pack::View& pack);
+  void close();
+
+ private:
+  std::FILE* file_ = nullptr;
+  char buffer_[65536];
+};
+
+}  // namespace caryatid::app

@@ -1,0 +1,226 @@
+#include "firmware-app/options.h"
+
+#include <getopt.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace caryatid::app {
+namespace {
+
+constexpr char kHelp[] =
+    R"(caryatid: an information-kiosk agent. A button is pressed, a person answers.
+
+usage: caryatid [OPTIONS]
+
+  --config FILE          kiosk.toml: buttons and what they do (default: the built-in programme)
+  --pack FILE            the character, made by caryatid-tool bake (default: a built-in face)
+  --display KIND         auto, drm, window, surfaceless or none (default auto)
+  --size WxH             pixels of a window or surfaceless picture (default 800x480)
+  --rotate DEGREES       0, 90, 180 or 270
+  --target-fps N         frames a second, 1..120 (default 30)
+  --view NAME            head, bust or body (default head)
+  --lod auto|N|OBJECT=N,...   triangles: chosen by the frame budget, of the whole person, or by object
+                         (head, body, hair, clothes, eye, mouth, brow, lash)
+  --script FILE          recorded button events, one a line: SECONDS NAME down|up
+  --virtual-clock        time advances by one frame period a frame: same input, same output
+  --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w (default),
+                         pi3, pi4, mali450, gc7000
+  --duration S           stop after S seconds
+  --play FILE            play a .fap or .bap text file instead of the programme
+  --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
+  --metrics FILE         JSON lines, one a frame
+  --seed N               another idle life (default 1)
+  --check                look at config and pack, say what is wrong, and exit
+  --help, --version
+
+Keys 1 to 9 of a window stand for the buttons in their order.
+example: caryatid --pack woman.pack --display surfaceless --virtual-clock --script default.script \
+                  --duration 20 --frames-out out --frames-every 5 --metrics out/metrics.jsonl
+)";
+
+enum Id : int {
+  kConfig = 256,
+  kPack,
+  kDisplay,
+  kSize,
+  kRotate,
+  kFps,
+  kScript,
+  kVirtual,
+  kBoard,
+  kDuration,
+  kFramesOut,
+  kFramesEvery,
+  kMetrics,
+  kPlay,
+  kLod,
+  kView,
+  kSeed,
+  kCheck,
+  kHelpId,
+  kVersion,
+};
+
+constexpr option kLong[] = {
+    {"config", required_argument, nullptr, kConfig},
+    {"pack", required_argument, nullptr, kPack},
+    {"display", required_argument, nullptr, kDisplay},
+    {"size", required_argument, nullptr, kSize},
+    {"rotate", required_argument, nullptr, kRotate},
+    {"target-fps", required_argument, nullptr, kFps},
+    {"script", required_argument, nullptr, kScript},
+    {"virtual-clock", no_argument, nullptr, kVirtual},
+    {"board", required_argument, nullptr, kBoard},
+    {"duration", required_argument, nullptr, kDuration},
+    {"frames-out", required_argument, nullptr, kFramesOut},
+    {"frames-every", required_argument, nullptr, kFramesEvery},
+    {"metrics", required_argument, nullptr, kMetrics},
+    {"play", required_argument, nullptr, kPlay},
+    {"lod", required_argument, nullptr, kLod},
+    {"view", required_argument, nullptr, kView},
+    {"seed", required_argument, nullptr, kSeed},
+    {"check", no_argument, nullptr, kCheck},
+    {"help", no_argument, nullptr, kHelpId},
+    {"version", no_argument, nullptr, kVersion},
+    {nullptr, 0, nullptr, 0},
+};
+
+bool wrong(const char* name, const char* value, const char* wanted) {
+  std::fprintf(stderr, "caryatid: --%s %s: wanted %s; see caryatid --help\n", name, value, wanted);
+  return false;
+}
+
+bool number(const char* name, const char* text, double low, double high, double* out) {
+  char* end = nullptr;
+  *out = std::strtod(text, &end);
+  if (end != text && *end == '\0' && *out >= low && *out <= high) return true;
+  char wanted[64];
+  std::snprintf(wanted, sizeof wanted, "a number from %g to %g", low, high);
+  return wrong(name, text, wanted);
+}
+
+bool whole(const char* name, const char* text, double low, double high, std::uint32_t* out) {
+  double value = 0.0;
+  if (!number(name, text, low, high, &value)) return false;
+  *out = static_cast<std::uint32_t>(value);
+  return static_cast<double>(*out) == value || wrong(name, text, "a whole number");
+}
+
+bool one_of(const char* name, const char* text, std::initializer_list<const char*> names,
+            std::string* out) {
+  std::string wanted = "one of";
+  for (const char* n : names) {
+    if (std::strcmp(n, text) == 0) {
+      *out = text;
+      return true;
+    }
+    wanted += std::string(" ") + n;
+  }
+  return wrong(name, text, wanted.c_str());
+}
+
+bool size_of(const char* text, Options* out) {
+  unsigned w = 0, h = 0;
+  char rest = '\0';
+  if (std::sscanf(text, "%ux%u%c", &w, &h, &rest) != 2 || w < 16 || h < 16 || w > 4096 || h > 4096)
+    return wrong("size", text, "WIDTHxHEIGHT, each from 16 to 4096");
+  out->width = w;
+  out->height = h;
+  return true;
+}
+
+bool rotation(const char* text, Options* out) {
+  std::string r;
+  if (!one_of("rotate", text, {"0", "90", "180", "270"}, &r)) return false;
+  out->rotate_degrees = static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
+  return true;
+}
+
+bool take(int id, const char* text, Options* o) {
+  double value = 0.0;
+  switch (id) {
+    case kConfig:
+      o->config = text;
+      return true;
+    case kPack:
+      o->pack = text;
+      return true;
+    case kDisplay:
+      return one_of("display", text, {"auto", "drm", "window", "surfaceless", "none"}, &o->display);
+    case kSize:
+      return size_of(text, o);
+    case kRotate:
+      return rotation(text, o);
+    case kFps:
+      return whole("target-fps", text, 1, 120, &o->target_fps);
+    case kScript:
+      o->script = text;
+      return true;
+    case kVirtual:
+      o->virtual_clock = true;
+      return true;
+    case kBoard:
+      return one_of("board", text, {"pi-zero-2w", "pi3", "pi4", "mali450", "gc7000"}, &o->board);
+    case kDuration:
+      return number("duration", text, 0, 1e9, &o->duration_s);
+    case kFramesOut:
+      o->frames_out = text;
+      return true;
+    case kFramesEvery:
+      return whole("frames-every", text, 1, 1e6, &o->frames_every);
+    case kMetrics:
+      o->metrics = text;
+      return true;
+    case kPlay:
+      o->play = text;
+      return true;
+    case kLod:
+      o->lod = text;
+      return true;
+    case kView:
+      return one_of("view", text, {"head", "bust", "body"}, &o->view);
+    case kSeed:
+      if (!number("seed", text, 0, 9e15, &value)) return false;
+      o->seed = static_cast<std::uint64_t>(value);
+      return true;
+    case kCheck:
+      o->check = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+Parsed parse_options(int argc, char** argv, Options* out) {
+  opterr = 0;
+  optind = 1;
+  for (;;) {
+    const int id = getopt_long(argc, argv, ":", kLong, nullptr);
+    if (id == -1) break;
+    if (id == kHelpId) {
+      std::fputs(kHelp, stdout);
+      return Parsed::done;
+    }
+    if (id == kVersion) {
+      std::puts("caryatid " CARYATID_VERSION);
+      return Parsed::done;
+    }
+    if (id == ':' || id == '?') {
+      std::fprintf(stderr, "caryatid: %s: %s; see caryatid --help\n", argv[optind - 1],
+                   id == ':' ? "a value is missing" : "no such option");
+      return Parsed::wrong;
+    }
+    if (!take(id, optarg, out)) return Parsed::wrong;
+  }
+  if (optind < argc) {
+    std::fprintf(stderr, "caryatid: %s: not an option; see caryatid --help\n", argv[optind]);
+    return Parsed::wrong;
+  }
+  return Parsed::run;
+}
+
+}  // namespace caryatid::app

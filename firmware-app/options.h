@@ -1,0 +1,34 @@
+#pragma once
+// The command line of caryatid. Names and meanings are a promise to scripts.
+#include <cstdint>
+#include <string>
+
+namespace caryatid::app {
+
+struct Options {
+  std::string config;            // Empty: the built-in default programme.
+  std::string pack;              // Empty: the built-in face.
+  std::string display = "auto";  // auto, drm, window, surfaceless, none.
+  std::uint32_t width = 800, height = 480;
+  std::uint32_t rotate_degrees = 0;
+  std::uint32_t target_fps = 30;
+  std::string script;
+  bool virtual_clock = false;
+  std::string board = "pi-zero-2w";
+  double duration_s = 0.0;  // 0: until told to stop.
+  std::string frames_out;
+  std::uint32_t frames_every = 1;
+  std::string metrics;
+  std::string play;
+  std::string lod = "auto";
+  std::string view = "head";  // head, bust, body.
+  std::uint64_t seed = 1;
+  bool check = false;
+};
+
+enum class Parsed { run, done, wrong };
+
+// Reads argv. `done`: --help or --version was answered on stdout. `wrong`: one line went to stderr.
+Parsed parse_options(int argc, char** argv, Options* out);
+
+}  // namespace caryatid::app
