@@ -12,15 +12,17 @@ constexpr std::uint8_t kInnerMiddle[4] = {4, 4, 5, 5};
 constexpr std::uint8_t kInnerCorner[4] = {12, 13, 12, 13};
 // Upper lip FAPs count downwards, corners upwards.
 constexpr float kCornerSign[4] = {-1, -1, 1, 1};
-constexpr float kMiddleShare = 0.75f;
+// A parted lip is an arc: at half its width an ellipse keeps 0.87 of the height, a parabola 0.75;
+// measured lips lie between.
+constexpr float kMiddleShare = 0.8f;
 
 // The left FAP of every pair; its right partner is the next number (fap_table.h).
 constexpr std::uint8_t kLeft[] = {6,  8,  10, 12, 19, 21, 23, 25, 27, 29, 31, 33,
                                   35, 37, 39, 41, 53, 55, 57, 59, 61, 65, 67};
 
-// Sides both ways, lips both ways, two rules a quarter, and the middles; the last two for the inner
-// and the outer lips.
-constexpr std::size_t kRuleCount = 2 * std::size(kLeft) + 2 * 10 + 2 * (2 * 4 + 2);
+// Sides both ways, lips both ways, for either contour two rules a quarter and two middles, and
+// three rules for each brow's middle.
+constexpr std::size_t kRuleCount = 2 * std::size(kLeft) + 2 * 10 + 2 * (2 * 4 + 2) + 2 * 3;
 
 struct RuleList {
   std::array<FitRule, kRuleCount> rule{};
@@ -58,17 +60,34 @@ constexpr void add_quarters(RuleList* list, int offset) {
     list->add(at(kInnerMiddle[i]), {at(kInnerQuarter[i]), 0.5f}, {at(kInnerQuarter[i + 1]), 0.5f});
 }
 
+// The middle of a brow from its ends.
+constexpr void add_brow(RuleList* list, std::uint8_t inner, std::uint8_t middle,
+                        std::uint8_t outer) {
+  list->add(middle, {inner, 0.5f}, {outer, 0.5f});
+  list->add(middle, {inner, 0.5f});
+  list->add(middle, {outer, 0.5f});
+}
+
 constexpr RuleList make_default() {
   RuleList list;
   add_sides(&list);
   add_lips(&list);
   add_quarters(&list, 0);
   add_quarters(&list, kInnerToOuter);
+  add_brow(&list, 31, 33, 35);
+  add_brow(&list, 32, 34, 36);
   return list;
 }
 
 constexpr RuleList kDefault = make_default();
 static_assert(kDefault.count == kRuleCount);
+
+bool fires(const FitRule& rule, const FapFrame& frame) {
+  if (rule.term[0].fap == 0 || frame.mask.test(rule.receiver)) return false;
+  for (const FitTerm& term : rule.term)
+    if (term.fap != 0 && !frame.mask.test(term.fap)) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -76,18 +95,18 @@ std::span<const FitRule> default_fit() { return {kDefault.rule.data(), kDefault.
 
 BitSet<kFapCount + 1> apply_fit(std::span<const FitRule> rules, FapFrame* io_frame) {
   BitSet<kFapCount + 1> filled;
-  for (const FitRule& rule : rules) {
-    if (io_frame->mask.test(rule.receiver)) continue;
-    float sum = 0.0f;
-    bool complete = rule.term[0].fap != 0;
-    for (const FitTerm& term : rule.term) {
-      if (term.fap == 0) break;
-      complete = complete && io_frame->mask.test(term.fap);
-      sum += term.coefficient * io_frame->value[term.fap];
+  // Every pass fills at least one FAP or is the last; in practice three passes reach everything.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const FitRule& rule : rules) {
+      if (!fires(rule, *io_frame)) continue;
+      float sum = 0.0f;
+      for (const FitTerm& term : rule.term)
+        if (term.fap != 0) sum += term.coefficient * io_frame->value[term.fap];
+      io_frame->set(rule.receiver, sum);
+      filled.set(rule.receiver);
+      changed = true;
     }
-    if (!complete) continue;
-    io_frame->set(rule.receiver, sum);
-    filled.set(rule.receiver);
   }
   return filled;
 }

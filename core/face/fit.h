@@ -29,13 +29,15 @@ struct FitRule {
 //  1. a side from the other side, unchanged: positive directions mirror (14496-2 annex C; the eyes'
 //     yaw goes left on both sides and is copied unchanged too, so that they look the same way);
 //  2. an outer lip FAP from the inner one of the same place and back (FAP n and n + 47);
-//  3. a quarter point of a lip from its middle and corner by the parabola through them:
-//     3/4 middle + 1/4 corner; from the middle alone: 3/4 of it;
-//  4. a lip's middle from its two quarter points: their mean.
+//  3. a quarter point of a lip from its middle and corner: 4/5 middle + 1/5 corner; from the middle
+//     alone: 4/5 of it;
+//  4. a lip's middle from its two quarter points: their mean;
+//  5. the middle of a brow from its ends: their mean; from one end: half of it.
 std::span<const FitRule> default_fit();
 
-// Applies the rules in order and sets the mask of every FAP they give. FAPs 1 and 2 and FAPs that
-// the frame has are never touched. Returns the FAPs that were filled. O(rules).
+// Applies the rules in order, again until none fires, and sets the mask of every FAP they give.
+// FAPs 1 and 2 and FAPs that the frame has are never touched. Returns the FAPs that were filled.
+// O(rules), a few passes.
 BitSet<kFapCount + 1> apply_fit(std::span<const FitRule> rules, FapFrame* io_frame);
 
 }  // namespace caryatid::face

@@ -1,8 +1,6 @@
 #pragma once
-// Fills FAPs that a frame leaves out from those it has, after the idea of MPEG-4's face
-// interpolation table (FIT): left from right, outer lip from inner, quarter points from middle and
-// corner. Rules are data, tried in order until none applies; a FAP that is present is never
-// changed.
+// Fills FAPs that a frame of our own leaves out from those it has, by the default rules of fit.h: a
+// FAP that is present is never changed. (Frames of other tools: fill_from_partners, fap_fill.h.)
 #include "core/face/fap.h"
 
 namespace caryatid::face {

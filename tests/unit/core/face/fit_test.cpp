@@ -60,25 +60,40 @@ TEST(Fit, OuterLipsFollowInnerAndBack) {
   }
 }
 
-// Upper middle lowered by 80, corners raised by 40 (= lowered by -40): the parabola through them
-// passes 3/4 * 80 - 1/4 * 40 = 50 below.
-TEST(Fit, QuarterPointsLieOnAParabola) {
+// Upper middle lowered by 80, corners raised by 40 (= lowered by -40): 4/5 * 80 - 1/5 * 40.
+TEST(Fit, QuarterPointsLieBetweenMiddleAndCorner) {
   FapFrame frame;
   frame.set(4, 80);
   frame.set(12, 40);
   fill_from_partners(&frame);
-  EXPECT_EQ(frame.get(8), 50.0f);
-  EXPECT_EQ(frame.get(9), 50.0f);
-  EXPECT_EQ(frame.get(55), 50.0f);
+  for (const int fap : {8, 9, 55, 56}) EXPECT_NEAR(frame.get(fap), 56.0f, 1e-4f) << fap;
+}
+
+// All points of a contour moved alike stay on a line: no coefficient adds or loses height.
+TEST(Fit, QuarterOfALipThatMovesAsAWholeMovesWithIt) {
+  FapFrame frame;
+  frame.set(52, 100);
+  frame.set(59, 100);
+  fill_from_partners(&frame);
+  EXPECT_NEAR(frame.get(57), 100.0f, 1e-4f);
 }
 
 TEST(Fit, QuarterFollowsTheMiddleAlone) {
   FapFrame frame;
   frame.set(52, 80);
   fill_from_partners(&frame);
-  EXPECT_EQ(frame.get(57), 60.0f);
-  EXPECT_EQ(frame.get(10), 60.0f);
+  EXPECT_NEAR(frame.get(57), 64.0f, 1e-4f);
+  EXPECT_NEAR(frame.get(10), 64.0f, 1e-4f);
   EXPECT_FALSE(frame.has(12));
+}
+
+TEST(Fit, BrowMiddleFollowsItsEnds) {
+  FapFrame frame;
+  frame.set(31, 100);
+  frame.set(35, 50);
+  fill_from_partners(&frame);
+  EXPECT_EQ(frame.get(33), 75.0f);
+  EXPECT_EQ(frame.get(34), 75.0f);
 }
 
 TEST(Fit, StillLipSetCountsAsLeftOut) {
