@@ -120,4 +120,19 @@ face::FapFrame expression(const Weights& weights) {
   return out;
 }
 
+void expand_expression(face::FapFrame& frame) {
+  if (!frame.has(face::kFapExpression)) return;
+  frame.mask.set(face::kFapExpression, false);
+  const face::ExpressionField& f = frame.expression;
+  Weights weights{};
+  const auto add = [&weights](std::uint8_t select, std::uint8_t intensity) {
+    if (select > 0 && select < kEmotionCount) weights[select] += static_cast<float>(intensity) / 63.0f;
+  };
+  add(f.first, f.first_intensity);
+  add(f.second, f.second_intensity);
+  const face::FapFrame shown = expression(weights);
+  for (int fap = 3; fap <= face::kFapCount; ++fap)
+    if (!frame.has(fap) && shown.get(fap) != 0.0f) frame.set(fap, shown.get(fap));
+}
+
 }  // namespace caryatid::emotion

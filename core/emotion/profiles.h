@@ -27,4 +27,8 @@ face::FapFrame peak_face(Emotion e);
 // The sum of all emotions' peak faces by weight. O(emotions up * 68).
 face::FapFrame expression(const Weights& weights);
 
+// Replaces FAP 2 of `frame` by low-level FAPs: each selected expression at intensity/63 of its peak
+// face, both added. FAPs that the frame holds itself win.
+void expand_expression(face::FapFrame& frame);
+
 }  // namespace caryatid::emotion

@@ -53,5 +53,17 @@ TEST(Profiles, ExpressionIsLinearInItsWeights) {
   EXPECT_EQ(expression(Weights{}).get(31), 0.0f);
 }
 
+TEST(Profiles, ExpressionFieldBecomesLowLevelFaps) {
+  face::FapFrame f;
+  f.mask.set(face::kFapExpression);
+  f.expression.first = 6;  // Surprise.
+  f.expression.first_intensity = 63;
+  f.set(3, 7.0f);  // Sent beside it: wins.
+  expand_expression(f);
+  EXPECT_FALSE(f.has(face::kFapExpression));
+  EXPECT_EQ(f.get(3), 7.0f);
+  EXPECT_FLOAT_EQ(f.get(31), peak_face(Emotion::surprise).get(31));
+}
+
 }  // namespace
 }  // namespace caryatid::emotion

@@ -1,0 +1,107 @@
+#pragma once
+// The kiosk: wires core to platform and runs the frame loop.
+//
+// A frame, always in this order: buttons -> agent -> face mixer and pose -> level of detail ->
+// deform -> draw list -> renderer -> flip; its timings go back to the level of detail.
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/agent/agent.h"
+#include "core/agent/person.h"
+#include "core/lod/board_model.h"
+#include "core/lod/controller.h"
+#include "core/scene/draw_list.h"
+#include "firmware-app/config.h"
+#include "firmware-app/memory.h"
+#include "firmware-app/metrics.h"
+#include "firmware-app/options.h"
+#include "firmware-app/pack_file.h"
+#include "firmware-app/player.h"
+#include "firmware-app/png_writer.h"
+#include "platform/buttons/buttons.h"
+#include "platform/display/display.h"
+#include "platform/render/render.h"
+
+namespace caryatid::app {
+
+// What a run came to, for the closing line and the exit code.
+struct RunReport {
+  std::uint64_t frames = 0, late_frames = 0;
+  double seconds = 0.0;
+  std::uint64_t allocations = 0;
+  std::size_t arena_bytes = 0;
+};
+
+class Kiosk {
+ public:
+  explicit Kiosk(const Options& options) : options_(options) {}
+
+  // Opens everything that may allocate, then seals memory. False: a line went to stderr and there is
+  // nothing to run; a pack that can't be used is no such case, the built-in face stands in.
+  bool start();
+  // Runs until the duration ends, the window closes or request_stop(). False on a lost display.
+  bool run();
+  const RunReport& report() const { return report_; }
+
+  // --check: configuration and pack alone. True when both are sound.
+  static bool check(const Options& options);
+  // Async-signal-safe.
+  static void request_stop();
+
+ private:
+  struct Tick {
+    double time_s;
+    float dt_s;
+    std::int64_t start_us;
+  };
+
+  bool read_config();
+  bool open_person();
+  bool load_base(std::string* out_error);
+  bool open_screen();
+  bool open_outputs();
+  bool frame(const Tick& tick);
+  void poll_buttons(const Tick& tick);
+  void load_more();
+  void act(const Tick& tick);
+  void choose_levels(const Tick& tick);
+  bool draw(const Tick& tick);
+  void measure(const Tick& tick);
+  void fix_levels();
+  lod::SceneNeeds needs();
+
+  Options options_;
+  Config config_;
+  Memory memory_;
+  PackFile pack_file_;
+  pack::Loader loader_;
+  agent::Person person_;
+  std::unique_ptr<agent::Agent> agent_;
+  Player player_;
+  std::unique_ptr<platform::Display> display_;
+  std::unique_ptr<platform::Renderer> renderer_;
+  std::unique_ptr<platform::Buttons> script_;
+  std::unique_ptr<lod::BudgetController> budget_;
+  std::unique_ptr<lod::VirtualBoard> board_;
+  FramesOut frames_out_;
+  MetricsFile metrics_;
+
+  scene::DrawList list_;
+  platform::ButtonEvents events_;
+  std::array<lod::ObjectNeed, kMaxObjects> object_needs_{};
+  std::array<std::uint32_t, kMaxObjects> fixed_levels_{};
+  bool fixed_ = false;
+  std::uint32_t decision_seen_ = 0;
+  float decision_wait_s_ = 0.0f;
+  lod::FrameSample sample_;
+  std::array<bool, kMaxTextures> texture_whole_{};
+  bool refinement_ended_ = false;
+  bool close_requested_ = false;
+  std::uint64_t frame_number_ = 0;
+  std::int64_t last_frame_us_ = 0;
+  RunReport report_;
+};
+
+}  // namespace caryatid::app

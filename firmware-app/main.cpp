@@ -1,0 +1,42 @@
+// caryatid: the agent's program. Exit codes: 0 done, 1 failed at run time, 2 wrong usage.
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "firmware-app/kiosk.h"
+#include "firmware-app/options.h"
+
+namespace {
+
+void on_signal(int) { caryatid::app::Kiosk::request_stop(); }
+
+void close_line(const caryatid::app::Options& options, const caryatid::app::RunReport& r) {
+  std::printf("caryatid: %llu frames in %.2f s, %llu late, %llu allocations after the seal, arena %.2f MiB",
+              static_cast<unsigned long long>(r.frames), r.seconds,
+              static_cast<unsigned long long>(r.late_frames),
+              static_cast<unsigned long long>(r.allocations),
+              static_cast<double>(r.arena_bytes) / 1048576.0);
+  if (!options.frames_out.empty()) std::printf("; pictures in %s", options.frames_out.c_str());
+  if (!options.metrics.empty()) std::printf("; metrics in %s", options.metrics.c_str());
+  std::putchar('\n');
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace caryatid::app;
+  Options options;
+  switch (parse_options(argc, argv, &options)) {
+    case Parsed::done: return 0;
+    case Parsed::wrong: return 2;
+    case Parsed::run: break;
+  }
+  if (options.check) return Kiosk::check(options) ? 0 : 1;
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGINT, on_signal);
+  // Large: meshes, tables and buffers of fixed size stand inside it.
+  const auto kiosk = std::make_unique<Kiosk>(options);
+  if (!kiosk->start() || !kiosk->run()) return 1;
+  close_line(options, kiosk->report());
+  return 0;
+}

@@ -1,0 +1,92 @@
+#include "firmware-app/player.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "core/emotion/profiles.h"
+#include "core/face/interpolation.h"
+#include "core/face/visemes.h"
+
+namespace caryatid::app {
+namespace {
+
+constexpr long kMaxFileBytes = 64l << 20;
+
+bool ends_with(const std::string& text, const char* end) {
+  const std::size_t n = std::strlen(end);
+  return text.size() >= n && text.compare(text.size() - n, n, end) == 0;
+}
+
+}  // namespace
+
+bool Player::open(const std::string& path, std::string* out_error) {
+  name_ = path;
+  is_body_ = ends_with(path, ".bap");
+  if (!is_body_ && !ends_with(path, ".fap")) {
+    *out_error = path + ": not a .fap or .bap file; convert it with caryatid-tool fba";
+    return false;
+  }
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) {
+    *out_error = path + ": " + std::strerror(errno) + "; name a file that can be read";
+    return false;
+  }
+  std::fseek(file, 0, SEEK_END);
+  const long bytes = std::ftell(file);
+  std::rewind(file);
+  const bool fits = bytes > 0 && bytes <= kMaxFileBytes;
+  if (fits) {
+    text_ = std::make_unique<char[]>(static_cast<std::size_t>(bytes));
+    size_ = std::fread(text_.get(), 1, static_cast<std::size_t>(bytes), file);
+  }
+  std::fclose(file);
+  if (!fits || size_ == 0) {
+    *out_error = path + ": empty or longer than 64 MiB; cut it into pieces";
+    return false;
+  }
+  const bool ok = is_body_ ? check(stream::BapTextReader(text()), body::BapFrame{}, out_error)
+                           : check(stream::FapTextReader(text()), face::FapFrame{}, out_error);
+  if (!ok) size_ = 0;
+  return ok;
+}
+
+template <class Reader, class Frame>
+bool Player::check(Reader reader, Frame frame, std::string* out_error) {
+  Status status = reader.read_header();
+  if (status.ok()) fps_ = static_cast<double>(reader.header().frames_per_second);
+  while (status.ok()) {
+    status = reader.next(&frame);
+    if (status.ok()) ++frame_count_;
+  }
+  const bool at_end = static_cast<stream::TextFault>(status.detail) == stream::TextFault::end_of_text;
+  if (at_end && frame_count_ > 0) return true;
+  *out_error = name_ + ":" + std::to_string(reader.line()) + ": " +
+               (at_end ? "no frame in it; write at least one"
+                       : stream::describe_text_fault(status));
+  return false;
+}
+
+template <class Reader, class Frame>
+void Player::advance(std::uint32_t frame, Reader* reader, Frame* out) {
+  if (next_frame_ == 0 || frame + 1 < next_frame_) {
+    *reader = Reader(text());
+    *out = Frame{};
+    next_frame_ = 0;
+  }
+  while (next_frame_ <= frame && reader->next(out).ok()) ++next_frame_;
+}
+
+void Player::seek(double time_s) {
+  const double position = std::floor(time_s * fps_ + 1e-6);
+  const auto frame = static_cast<std::uint32_t>(std::fmod(position, frame_count_));
+  if (is_body_) return advance(frame, &bap_reader_, &baps_);
+  advance(frame, &fap_reader_, &raw_faps_);
+  faps_ = raw_faps_;
+  face::expand_viseme(faps_);
+  emotion::expand_expression(faps_);
+  face::fill_missing(faps_);
+}
+
+}  // namespace caryatid::app

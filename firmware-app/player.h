@@ -1,0 +1,47 @@
+#pragma once
+// --play: a .fap or .bap text file of any tool, played at its own frame rate in place of the programme.
+#include <memory>
+#include <string>
+
+#include "core/body/bap.h"
+#include "core/face/fap.h"
+#include "core/stream/bap_text.h"
+#include "core/stream/fap_text.h"
+
+namespace caryatid::app {
+
+class Player {
+ public:
+  // Reads the whole file and checks every frame before anything is shown. False: one line
+  // "FILE:LINE: what; cure".
+  bool open(const std::string& path, std::string* out_error);
+  bool active() const { return size_ > 0; }
+
+  // Advances to `time_s` since the start; starts over after the last frame. No allocation.
+  void seek(double time_s);
+  // The frames to show; nullptr when the file is of the other kind.
+  const face::FapFrame* faps() const { return is_body_ ? nullptr : &faps_; }
+  const body::BapFrame* baps() const { return is_body_ ? &baps_ : nullptr; }
+  double fps() const { return fps_; }
+  std::uint32_t frame_count() const { return frame_count_; }
+
+ private:
+  template <class Reader, class Frame>
+  bool check(Reader reader, Frame frame, std::string* out_error);
+  template <class Reader, class Frame>
+  void advance(std::uint32_t frame, Reader* reader, Frame* out);
+  std::span<const char> text() const { return {text_.get(), size_}; }
+
+  std::string name_;
+  std::unique_ptr<char[]> text_;
+  std::size_t size_ = 0;
+  bool is_body_ = false;
+  double fps_ = 25.0;
+  std::uint32_t frame_count_ = 0, next_frame_ = 0;
+  stream::FapTextReader fap_reader_{{}};
+  stream::BapTextReader bap_reader_{{}};
+  face::FapFrame raw_faps_, faps_;
+  body::BapFrame baps_;
+};
+
+}  // namespace caryatid::app
