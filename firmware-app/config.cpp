@@ -55,7 +55,7 @@ class Reader {
     }
     button.feel = static_cast<emotion::Emotion>(found - names.begin());
     if (!out->programme.buttons.push(button))
-      return refuse(node, "too many buttons", "at most " + std::to_string(agent::kMaxButtons));
+      return refuse(node, "too many buttons", "at most " + std::to_string(kMaxButtons));
     return true;
   }
 

@@ -38,8 +38,8 @@ class Kiosk {
  public:
   explicit Kiosk(const Options& options) : options_(options) {}
 
-  // Opens everything that may allocate, then seals memory. False: a line went to stderr and there is
-  // nothing to run; a pack that can't be used is no such case, the built-in face stands in.
+  // Opens everything that may allocate, then seals memory. False: a line went to stderr and there
+  // is nothing to run; a pack that can't be used is no such case, the built-in face stands in.
   bool start();
   // Runs until the duration ends, the window closes or request_stop(). False on a lost display.
   bool run();

@@ -11,11 +11,12 @@ namespace {
 void on_signal(int) { caryatid::app::Kiosk::request_stop(); }
 
 void close_line(const caryatid::app::Options& options, const caryatid::app::RunReport& r) {
-  std::printf("caryatid: %llu frames in %.2f s, %llu late, %llu allocations after the seal, arena %.2f MiB",
-              static_cast<unsigned long long>(r.frames), r.seconds,
-              static_cast<unsigned long long>(r.late_frames),
-              static_cast<unsigned long long>(r.allocations),
-              static_cast<double>(r.arena_bytes) / 1048576.0);
+  std::printf(
+      "caryatid: %llu frames in %.2f s, %llu late, %llu allocations after the seal, arena %.2f MiB",
+      static_cast<unsigned long long>(r.frames), r.seconds,
+      static_cast<unsigned long long>(r.late_frames),
+      static_cast<unsigned long long>(r.allocations),
+      static_cast<double>(r.arena_bytes) / 1048576.0);
   if (!options.frames_out.empty()) std::printf("; pictures in %s", options.frames_out.c_str());
   if (!options.metrics.empty()) std::printf("; metrics in %s", options.metrics.c_str());
   std::putchar('\n');
@@ -27,9 +28,12 @@ int main(int argc, char** argv) {
   using namespace caryatid::app;
   Options options;
   switch (parse_options(argc, argv, &options)) {
-    case Parsed::done: return 0;
-    case Parsed::wrong: return 2;
-    case Parsed::run: break;
+    case Parsed::done:
+      return 0;
+    case Parsed::wrong:
+      return 2;
+    case Parsed::run:
+      break;
   }
   if (options.check) return Kiosk::check(options) ? 0 : 1;
   std::signal(SIGTERM, on_signal);

@@ -60,11 +60,12 @@ bool Player::check(Reader reader, Frame frame, std::string* out_error) {
     status = reader.next(&frame);
     if (status.ok()) ++frame_count_;
   }
-  const bool at_end = static_cast<stream::TextFault>(status.detail) == stream::TextFault::end_of_text;
+  const bool at_end =
+      static_cast<stream::TextFault>(status.detail) == stream::TextFault::end_of_text;
   if (at_end && frame_count_ > 0) return true;
-  *out_error = name_ + ":" + std::to_string(reader.line()) + ": " +
-               (at_end ? "no frame in it; write at least one"
-                       : stream::describe_text_fault(status));
+  *out_error =
+      name_ + ":" + std::to_string(reader.line()) + ": " +
+      (at_end ? "no frame in it; write at least one" : stream::describe_text_fault(status));
   return false;
 }
 

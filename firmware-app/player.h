@@ -1,5 +1,6 @@
 #pragma once
-// --play: a .fap or .bap text file of any tool, played at its own frame rate in place of the programme.
+// --play: a .fap or .bap text file of any tool, played at its own frame rate in place of the
+// programme.
 #include <memory>
 #include <string>
 

@@ -27,3 +27,7 @@ file(GLOB render_sources CONFIGURE_DEPENDS platform/render/*.cpp platform/render
 add_library(caryatid_render STATIC ${render_sources})
 target_link_libraries(caryatid_render PUBLIC caryatid_scene
   PRIVATE PkgConfig::GLES caryatid_board_flags)
+
+file(GLOB button_sources CONFIGURE_DEPENDS platform/buttons/*.cpp platform/buttons/scripted/*.cpp)
+add_library(caryatid_buttons STATIC ${button_sources})
+target_link_libraries(caryatid_buttons PUBLIC caryatid_base PRIVATE caryatid_board_flags)

@@ -35,6 +35,8 @@ class Agent {
   // The same for other programs of the deployer (--control): an emotion at a strength 0..1.
   void feel(emotion::Emotion e, float strength);
 
+  emotion::Emotion emotion() const { return out_.emotion; }
+
  private:
   void press(const Button& button);
 

@@ -1,0 +1,427 @@
+#include "firmware-app/kiosk.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/emotion/profiles.h"
+#include "core/face/mixer.h"
+#include "core/scene/camera.h"
+#include "core/scene/compose.h"
+#include "firmware-app/allocations.h"
+#include "firmware-app/levels.h"
+#include "platform/buttons/scripted/scripted.h"
+#include "platform/clock/clock.h"
+
+namespace caryatid::app {
+namespace {
+
+std::atomic<bool> g_stop{false};
+
+// Bytes of the pack that are read between two frames while it still loads.
+constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
+
+void complain(const std::string& line) { std::fprintf(stderr, "caryatid: %s\n", line.c_str()); }
+
+bool read_text(const std::string& path, std::string* out, std::string* out_error) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) {
+    *out_error = path + ": " + std::strerror(errno) + "; name a file that can be read";
+    return false;
+  }
+  char piece[4096];
+  for (std::size_t n;
+       (n = std::fread(piece, 1, sizeof piece, file)) > 0 && out->size() < (1u << 20);)
+    out->append(piece, n);
+  std::fclose(file);
+  return true;
+}
+
+bool load_config(const std::string& path, Config* out, std::string* out_error) {
+  if (path.empty())
+    return parse_config(default_config_text(), "default kiosk.toml", out, out_error);
+  std::string text;
+  return read_text(path, &text, out_error) && parse_config(text, path, out, out_error);
+}
+
+scene::View view_of(const std::string& name) {
+  if (name == "body") return scene::View::body;
+  return name == "bust" ? scene::View::bust : scene::View::head;
+}
+
+}  // namespace
+
+void Kiosk::request_stop() { g_stop = true; }
+
+bool Kiosk::read_config() {
+  std::string error;
+  if (!load_config(options_.config, &config_, &error)) {
+    complain(error);
+    return false;
+  }
+  if (options_.script.empty()) return true;
+  std::string text;
+  auto script = std::make_unique<platform::ScriptedButtons>();
+  const auto number_of = [this](std::string_view name) { return config_.programme.find(name) + 1; };
+  if (!read_text(options_.script, &text, &error) ||
+      !script->parse(text, options_.script, number_of, &error)) {
+    complain(error);
+    return false;
+  }
+  script_ = std::move(script);
+  return true;
+}
+
+bool Kiosk::load_base(std::string* out_error) {
+  const pack::PackHeader& h = pack_file_.header();
+  // A damaged header could ask for anything; no board that we serve gives more than this.
+  constexpr std::uint32_t kMostArenaBytes = 64u << 20;
+  const std::uint32_t bytes = std::max(h.arena_bytes, h.image_bytes);
+  if (bytes > kMostArenaBytes || !memory_.map(bytes + 4096)) {
+    *out_error = describe_refusal(pack_file_.name(),
+                                  {Code::out_of_capacity, std::uint16_t(pack::Refusal::too_large)});
+    return false;
+  }
+  const auto image = memory_.arena().take<Vec4>((h.image_bytes + sizeof(Vec4) - 1) / sizeof(Vec4));
+  Status status = loader_.begin(h, std::as_writable_bytes(image));
+  while (status.ok() && !loader_.base_ready() && !pack_file_.exhausted())
+    status = pack_file_.feed(4096, &loader_);
+  if (!loader_.base_ready()) {
+    if (status.ok()) status = {Code::corrupt_data, std::uint16_t(pack::Refusal::base_incomplete)};
+    *out_error = describe_refusal(pack_file_.name(), status);
+    return false;
+  }
+  status = person_.start(loader_.view(), memory_.arena());
+  if (status.ok()) return true;
+  *out_error =
+      std::string(pack_file_.name()) + ": " +
+      (status.code == Code::out_of_capacity ? "asks for less memory than it needs; bake it again"
+                                            : "its meshes are damaged; bake it again");
+  return false;
+}
+
+bool Kiosk::open_person() {
+  std::string error;
+  if (!options_.pack.empty()) {
+    if (pack_file_.open(options_.pack, &error) && load_base(&error)) return true;
+    complain(error + " (the built-in face stands in)");
+  }
+  if (pack_file_.open_builtin(&error) && load_base(&error)) return true;
+  complain(error);
+  return false;
+}
+
+bool Kiosk::open_screen() {
+  platform::ErrorLine error;
+  platform::RenderOptions render;
+  render.width = options_.width;
+  render.height = options_.height;
+  render.offscreen = true;
+  render.scalable = true;
+  if (options_.display == "none")
+    return platform::open_null_renderer(person_.view(), render, renderer_).ok();
+  platform::DisplayOptions d;
+  d.width = options_.width;
+  d.height = options_.height;
+  if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
+  if (options_.display == "window") d.kind = platform::DisplayKind::window;
+  if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
+  if (!platform::open_display(d, display_, error).ok()) {
+    complain(error.c_str());
+    return false;
+  }
+  // The context's function look-up has no place for a receiver; there is one display.
+  static platform::Display* display;
+  display = display_.get();
+  render.width = display_->width();
+  render.height = display_->height();
+  render.offscreen = !display_->has_surface();
+  render.proc_address = [](const char* name) { return display->proc_address(name); };
+  if (platform::open_gles_renderer(person_.view(), !loader_.complete(), render, renderer_, error)
+          .ok())
+    return true;
+  complain(error.c_str());
+  return false;
+}
+
+bool Kiosk::open_outputs() {
+  if (!options_.frames_out.empty()) {
+    const double seconds = options_.duration_s > 0.0 ? options_.duration_s : 60.0;
+    const double pictures = seconds * options_.target_fps / options_.frames_every + 1.0;
+    if (!frames_out_.start(options_.frames_out, options_.frames_every, renderer_->width(),
+                           renderer_->height(), static_cast<std::uint32_t>(pictures))) {
+      complain(options_.frames_out + ": can't be made; name a folder that can be written");
+      return false;
+    }
+  }
+  if (!options_.metrics.empty() && !metrics_.open(options_.metrics.c_str())) {
+    complain(options_.metrics + ": " + std::strerror(errno) + "; name a file that can be written");
+    return false;
+  }
+  return true;
+}
+
+void Kiosk::fix_levels() {
+  fixed_ = options_.lod != "auto";
+  if (fixed_) person_.set_levels({fixed_levels_.data(), person_.object_count()});
+}
+
+bool Kiosk::start() {
+  if (!read_config()) return false;
+  std::string error;
+  if (!options_.play.empty() && !player_.open(options_.play, &error)) {
+    complain(error);
+    return false;
+  }
+  if (!open_person()) return false;
+  if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) {
+    complain(error);
+    return false;
+  }
+  if (!open_screen() || !open_outputs()) return false;
+  agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
+  const std::string& name = options_.board;
+  const lod::BoardCosts* costs = lod::find_board({name.data(), name.size()});
+  lod::LodConfig lod_config;
+  const float refresh_hz = costs != nullptr ? costs->refresh_hz : 60.0f;
+  const float vblanks = refresh_hz / static_cast<float>(options_.target_fps);
+  lod_config.vblank_us = 1e6f / refresh_hz;
+  lod_config.vblanks_per_frame = static_cast<std::uint16_t>(std::max(vblanks + 0.5f, 1.0f));
+  lod_config.prior = costs != nullptr ? *costs : lod::boards()[0];
+  budget_ = std::make_unique<lod::BudgetController>(lod_config);
+  if (options_.virtual_clock && costs != nullptr)
+    board_ = std::make_unique<lod::VirtualBoard>(*costs, lod_config.vblanks_per_frame);
+  fix_levels();
+  memory_.arena().seal();
+  report_.arena_bytes = memory_.arena().used_bytes();
+  seal_heap();
+  return true;
+}
+
+bool Kiosk::run() {
+  const double period_s = 1.0 / options_.target_fps;
+  const std::int64_t began_us = platform::monotonic_us();
+  std::int64_t due_us = began_us;
+  double last_s = -period_s;
+  bool ok = true;
+  while (ok && !g_stop && !close_requested_) {
+    const double now_s = options_.virtual_clock
+                             ? static_cast<double>(frame_number_) * period_s
+                             : static_cast<double>(platform::monotonic_us() - began_us) * 1e-6;
+    if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
+    ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
+    last_s = now_s;
+    ++frame_number_;
+    report_.seconds = now_s + period_s;
+    if (!options_.virtual_clock) {
+      due_us += static_cast<std::int64_t>(period_s * 1e6) * budget_->decision().frame_divisor;
+      const std::int64_t now_us = platform::monotonic_us();
+      if (due_us < now_us - 500000) due_us = now_us;  // A long stall is not caught up.
+      platform::sleep_until_us(due_us);
+    }
+  }
+  report_.frames = frame_number_;
+  report_.allocations = allocations_since_seal();
+  if (!frames_out_.finish()) complain(options_.frames_out + ": the contact sheet can't be written");
+  metrics_.close();
+  return ok;
+}
+
+bool Kiosk::frame(const Tick& tick) {
+  load_more();
+  poll_buttons(tick);
+  act(tick);
+  const bool drawn = draw(tick);
+  measure(tick);
+  return drawn;
+}
+
+void Kiosk::load_more() {
+  if (refinement_ended_) return;
+  const Status status = pack_file_.feed(kLoadBytesPerFrame, &loader_);
+  if (!status.ok()) {
+    std::fprintf(stderr, "caryatid: %s: %s (shown as far as it is whole)\n", pack_file_.name(),
+                 pack::refusal_text(static_cast<pack::Refusal>(status.detail)));
+    refinement_ended_ = true;
+  }
+  if (!person_.refine(loader_).ok())
+    std::fprintf(stderr, "caryatid: %s: a refinement is damaged (shown as far as it is whole)\n",
+                 pack_file_.name());
+  for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
+    if (!texture_whole_[t] && loader_.texture_complete(t)) {
+      texture_whole_[t] = true;
+      (void)renderer_->upload_texture(static_cast<std::uint16_t>(t), true);
+    }
+  if (loader_.complete()) refinement_ended_ = true;
+  if (fixed_) fix_levels();
+}
+
+void Kiosk::poll_buttons(const Tick& tick) {
+  events_.clear();
+  const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
+  if (script_) (void)script_->poll(now_us, events_);
+  if (!display_) return;
+  platform::DisplayEvents from_display;
+  if (!display_->poll(now_us, from_display).ok()) return;
+  for (const ButtonEvent& e : from_display.buttons) (void)events_.push(e);
+  close_requested_ = close_requested_ || from_display.close_requested;
+  if (from_display.resized) (void)renderer_->resize(display_->width(), display_->height());
+}
+
+void Kiosk::act(const Tick& tick) {
+  const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
+  const face::FapFrame felt = emotion::expression(will.emotions);
+  face::MixJob mix;
+  mix.rest = &person_.rest_face();
+  mix.emotion = &felt;
+  mix.idle = &will.idle_face;
+  mix.limits = &person_.limits();
+  const body::BapFrame* baps = &will.body;
+  if (player_.active()) {
+    player_.seek(tick.time_s);
+    if (player_.faps() != nullptr) mix = {.stream = player_.faps(), .limits = &person_.limits()};
+    if (player_.baps() != nullptr) baps = player_.baps();
+  }
+  choose_levels(tick);
+  person_.show(mix.run(), *baps, Affine{}, tick.dt_s);
+}
+
+lod::SceneNeeds Kiosk::needs() {
+  const bool felt = agent_ != nullptr && events_.size() > 0;
+  for (std::size_t o = 0; o < person_.object_count(); ++o)
+    object_needs_[o] = object_need(person_.view().objects[o], list_, person_, o, renderer_->width(),
+                                   renderer_->height(), felt);
+  lod::SceneNeeds n;
+  n.objects = {object_needs_.data(), person_.object_count()};
+  n.display_px = static_cast<float>(renderer_->width()) * static_cast<float>(renderer_->height());
+  return n;
+}
+
+void Kiosk::choose_levels(const Tick& tick) {
+  if (fixed_) return;
+  const lod::SceneNeeds wanted = needs();
+  const lod::LodDecision& d =
+      frame_number_ == 0 ? budget_->begin(wanted) : budget_->step(sample_, wanted);
+  if (d.sequence == decision_seen_ && frame_number_ > 0 && refinement_ended_) return;
+  decision_wait_s_ += tick.dt_s;
+  const bool may_wait = decision_wait_s_ * 1000.0f < static_cast<float>(d.cover_wait_ms);
+  if (may_wait && d.change != lod::Change::reduce) return;
+  decision_seen_ = d.sequence;
+  decision_wait_s_ = 0.0f;
+  const std::span<const std::uint32_t> triangles{d.triangles.data(), d.object_count};
+  if (d.morph_ms > 0)
+    person_.morph_to(triangles, static_cast<float>(d.morph_ms) * 1e-3f);
+  else
+    person_.set_levels(triangles);
+}
+
+bool Kiosk::draw(const Tick& tick) {
+  scene::ComposeJob job;
+  job.pack = &person_.view();
+  job.meshes = person_.meshes();
+  job.joints = person_.joints();
+  const float aspect =
+      static_cast<float>(renderer_->width()) / static_cast<float>(renderer_->height());
+  const auto* left = pack::find_feature_point(person_.view(), 3, 5);
+  const auto* right = pack::find_feature_point(person_.view(), 3, 6);
+  scene::Subject subject;
+  subject.stature_m = person_.view().character->stature_m;
+  if (left != nullptr && right != nullptr)
+    subject.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
+                      0.5f * (left->position_m[1] + right->position_m[1]),
+                      0.5f * (left->position_m[2] + right->position_m[2])};
+  job.camera = scene::make_camera(scene::framing(view_of(options_.view), subject), aspect,
+                                  options_.rotate_degrees);
+  if (!fixed_) {
+    job.render_scale = budget_->decision().render_scale;
+    job.shading = budget_->decision().shading;
+  }
+  if (!job.run(&list_).ok()) return false;
+  person_.collect_patches(&list_.patches);
+  const Status drawn = renderer_->draw(list_);
+  if (drawn.code == Code::device_lost) {
+    std::fputs("caryatid: the GPU was lost; start again\n", stderr);
+    return false;
+  }
+  if (frames_out_.wants(frame_number_)) {
+    if (renderer_->read_back(frames_out_.buffer()).ok() &&
+        !frames_out_.add(frame_number_, tick.time_s)) {
+      std::fprintf(stderr, "caryatid: %s: a picture can't be written; make room\n",
+                   options_.frames_out.c_str());
+      return false;
+    }
+  }
+  return !display_ || display_->present().ok();
+}
+
+void Kiosk::measure(const Tick& tick) {
+  const std::int64_t now_us = platform::monotonic_us();
+  lod::Work work;
+  work.triangles = renderer_->last_cost().triangles;
+  work.vertices_deformed = person_.deformed_vertices();
+  const float scale = list_.render_scale;
+  work.target_px = static_cast<float>(renderer_->width() * renderer_->height()) * scale * scale;
+  work.shaded_px =
+      shaded_pixels(person_, list_, renderer_->width(), renderer_->height()) * scale * scale;
+  work.shading = list_.shading;
+  if (board_) {
+    sample_ = board_->run(work, budget_->decision().frame_divisor);
+  } else {
+    sample_ = {};
+    sample_.time_us = static_cast<std::uint64_t>(now_us);
+    sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us);
+    sample_.drawn = work;
+  }
+  const double period_us = 1e6 / options_.target_fps;
+  FrameMetrics m;
+  m.time_s = tick.time_s;
+  m.cpu_ms = sample_.cpu_us == lod::FrameSample::kUnknown ? 0.0 : sample_.cpu_us * 1e-3;
+  m.gpu_ms = sample_.gpu_us == lod::FrameSample::kUnknown ? -1.0 : sample_.gpu_us * 1e-3;
+  const double cost_us = (m.cpu_ms + std::max(m.gpu_ms, 0.0)) * 1e3;
+  m.late = cost_us > period_us;
+  m.frame_ms = board_ ? std::max(cost_us, period_us) * 1e-3 : static_cast<double>(tick.dt_s) * 1e3;
+  m.triangles = person_.triangle_count();
+  std::array<std::uint32_t, kMaxObjects> lod{};
+  for (std::size_t o = 0; o < person_.object_count(); ++o)
+    lod[o] = person_.meshes()[o].triangle_count;
+  m.lod = {lod.data(), person_.object_count()};
+  m.render_scale = list_.render_scale;
+  m.shading = static_cast<int>(list_.shading);
+  m.emotion = agent_->emotion();
+  m.allocations_since_seal = allocations_since_seal();
+  m.arena_bytes_used = memory_.arena().used_bytes();
+  report_.late_frames += m.late ? 1 : 0;
+  if (!metrics_.write(m, person_.view()))
+    std::fprintf(stderr, "caryatid: %s: can't be written any more; make room\n",
+                 options_.metrics.c_str());
+}
+
+bool Kiosk::check(const Options& options) {
+  Kiosk kiosk(options);
+  if (!kiosk.read_config()) return false;
+  std::string error;
+  bool ok = true;
+  if (!options.pack.empty()) {
+    ok = kiosk.pack_file_.open(options.pack, &error) && kiosk.load_base(&error);
+    Status status;
+    while (ok && status.ok() && !kiosk.pack_file_.exhausted() && !kiosk.loader_.complete()) {
+      status = kiosk.pack_file_.feed(1 << 20, &kiosk.loader_);
+      if (status.ok() && !kiosk.person_.refine(kiosk.loader_).ok())
+        status = {Code::corrupt_data, std::uint16_t(pack::Refusal::bad_split_order)};
+    }
+    if (ok && !status.ok()) {
+      ok = false;
+      error = describe_refusal(options.pack.c_str(), status);
+    }
+  }
+  if (ok && !options.play.empty()) ok = kiosk.player_.open(options.play, &error);
+  if (!ok) complain(error);
+  if (ok) std::puts("caryatid: configuration and pack are sound");
+  return ok;
+}
+
+}  // namespace caryatid::app
