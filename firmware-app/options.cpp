@@ -21,12 +21,12 @@ usage: caryatid [OPTIONS]
   --rotate DEGREES       0, 90, 180 or 270
   --target-fps N         frames a second, 1..120 (default 30)
   --view NAME            head, bust or body (default head)
-  --lod auto|N|OBJECT=N,...   triangles: chosen by the frame budget, of the whole person, or by object
-                         (head, body, hair, clothes, eye, mouth, brow, lash)
+  --lod auto|N|OBJECT=N,...   triangles: chosen by the frame budget, of the whole person, or by
+                         object (head, body, hair, clothes, eye, mouth, brow, lash)
   --script FILE          recorded button events, one a line: SECONDS NAME down|up
   --virtual-clock        time advances by one frame period a frame: same input, same output
-  --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w (default),
-                         pi3, pi4, mali450, gc7000
+  --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w
+                         (default), pi3, pi4, mali450, gc7000
   --duration S           stop after S seconds
   --play FILE            play a .fap or .bap text file instead of the programme
   --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame

@@ -41,7 +41,8 @@ bool bind_section(const Section& s, std::span<std::byte> image, View* view) {
       return bind(&view->versions);
     case SectionId::base_indices:
       return bind(&view->base_indices);
-    case SectionId::splits: return bind(&view->splits);
+    case SectionId::splits:
+      return bind(&view->splits);
     case SectionId::split_data:
       return bind(&view->split_data);
     case SectionId::channels:

@@ -70,6 +70,7 @@ class Includes(Tree):
         self.assert_include("platform/audio/a.h", '"platform/clock/b.h"', True)
         self.assert_include("platform/display/gbm/a.h", '"platform/display/display.h"', True)
         self.assert_include("platform/display/gbm/a.h", '"platform/display/window/b.h"', False)
+        self.assert_include("platform/audio/a.h", '"platform/error_line.h"', True)
         self.assert_include("platform/misc/a.h", '"platform/misc/b.h"', False)
 
     def test_paths_start_at_the_root(self):

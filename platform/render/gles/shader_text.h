@@ -22,8 +22,10 @@ void skin(out vec3 position, out vec3 normal) {
   int i = int(a_bone.x) * 3, j = int(a_bone.y) * 3, k = int(a_bone.z) * 3, l = int(a_bone.w) * 3;
   vec4 w = a_weight;
   vec4 x = w.x * u_bones[i] + w.y * u_bones[j] + w.z * u_bones[k] + w.w * u_bones[l];
-  vec4 y = w.x * u_bones[i + 1] + w.y * u_bones[j + 1] + w.z * u_bones[k + 1] + w.w * u_bones[l + 1];
-  vec4 z = w.x * u_bones[i + 2] + w.y * u_bones[j + 2] + w.z * u_bones[k + 2] + w.w * u_bones[l + 2];
+  vec4 y = w.x * u_bones[i + 1] + w.y * u_bones[j + 1] + w.z * u_bones[k + 1] +
+           w.w * u_bones[l + 1];
+  vec4 z = w.x * u_bones[i + 2] + w.y * u_bones[j + 2] + w.z * u_bones[k + 2] +
+           w.w * u_bones[l + 2];
   vec4 p = vec4(a_position, 1.0);
   position = vec3(dot(x, p), dot(y, p), dot(z, p));
   normal = normalize(vec3(dot(x.xyz, a_normal.xyz), dot(y.xyz, a_normal.xyz),

@@ -142,9 +142,8 @@ TEST(Loader, HostileContentHasItsOwnRefusal) {
 }
 
 TEST(Loader, EverySectionIsNeeded) {
-  for (const SectionId id :
-       {SectionId::character, SectionId::joints, SectionId::materials, SectionId::objects,
-        SectionId::fat_first, SectionId::rest_face}) {
+  for (const SectionId id : {SectionId::character, SectionId::joints, SectionId::materials,
+                             SectionId::objects, SectionId::fat_first, SectionId::rest_face}) {
     TinyPack pack;
     pack.drop(id);
     EXPECT_FALSE(load(pack.file()).status.ok());
