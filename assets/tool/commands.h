@@ -1,0 +1,11 @@
+#pragma once
+// Every subcommand of caryatid-tool registers itself on the command line; its work runs in a
+// callback and fails by throwing std::runtime_error with one line "FILE:LINE: what; cure".
+#include <CLI/CLI.hpp>
+
+namespace caryatid::tool {
+
+void add_render(CLI::App& app);
+void add_sheet(CLI::App& app);
+
+}  // namespace caryatid::tool

@@ -1,0 +1,139 @@
+#include "assets/tool/studio.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "core/emotion/profiles.h"
+#include "core/face/mixer.h"
+#include "core/scene/compose.h"
+
+namespace caryatid::tool {
+namespace {
+
+std::vector<std::byte> read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": can't be read; bake one with caryatid-tool bake");
+  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+void require(Status status, const std::string& path) {
+  if (!status.ok())
+    throw std::runtime_error(path + ": " +
+                             pack::refusal_text(static_cast<pack::Refusal>(status.detail)));
+}
+
+}  // namespace
+
+Studio::Studio(const std::string& path, std::uint32_t width, std::uint32_t height)
+    : width_(width), height_(height) {
+  const std::vector<std::byte> file = read_file(path);
+  const Result<pack::PackHeader> header = pack::read_header(file);
+  require(header.status, path);
+  image_.resize(header.value.image_bytes / sizeof(Vec4) + 1);
+  loader_ = std::make_unique<pack::Loader>();
+  require(loader_->begin(header.value, std::as_writable_bytes(std::span(image_))), path);
+  require(loader_->feed(std::span(file).subspan(sizeof(pack::PackHeader))), path);
+  require(loader_->end(), path);
+  memory_.resize(agent::Person::arena_bytes(loader_->view()));
+  Arena arena(memory_);
+  person_ = std::make_unique<agent::Person>();
+  if (!person_->start(loader_->view(), arena).ok() || !person_->refine(*loader_).ok())
+    throw std::runtime_error(path + ": its meshes are damaged; bake it again");
+  platform::ErrorLine error;
+  platform::DisplayOptions d;
+  d.kind = platform::DisplayKind::surfaceless;
+  d.width = 2 * width;
+  d.height = 2 * height;
+  if (!platform::open_display(d, display_, error).ok()) throw std::runtime_error(error.c_str());
+  static platform::Display* display;  // The context's look-up has no place for a receiver.
+  display = display_.get();
+  platform::RenderOptions r;
+  r.width = 2 * width;
+  r.height = 2 * height;
+  r.offscreen = true;
+  r.proc_address = [](const char* name) { return display->proc_address(name); };
+  if (!platform::open_gles_renderer(person_->view(), false, r, renderer_, error).ok())
+    throw std::runtime_error(error.c_str());
+  list_ = std::make_unique<scene::DrawList>();
+}
+
+Picture Studio::picture(const Pose& pose) {
+  std::vector<std::uint32_t> levels;
+  std::uint64_t sum = 0;
+  for (const pack::Object& o : person_->view().objects) sum += o.max_triangle_count;
+  for (const pack::Object& o : person_->view().objects)
+    levels.push_back(pose.lod == 0 ? o.max_triangle_count
+                                   : static_cast<std::uint32_t>(std::uint64_t{pose.lod} *
+                                                                o.max_triangle_count / sum));
+  person_->set_levels(levels);
+  face::MixJob mix;
+  mix.limits = &person_->limits();
+  if (pose.absolute) {
+    mix.stream = &pose.faps;
+  } else {
+    mix.rest = &person_->rest_face();
+    mix.emotion = &pose.faps;
+  }
+  person_->show(mix.run(), pose.baps, Affine{}, 0.0f);
+  scene::Subject subject;
+  subject.stature_m = person_->view().character->stature_m;
+  const auto* left = pack::find_feature_point(person_->view(), 3, 5);
+  const auto* right = pack::find_feature_point(person_->view(), 3, 6);
+  if (left != nullptr && right != nullptr)
+    for (int k = 0; k < 3; ++k)
+      subject.eyes_m[k] = 0.5f * (left->position_m[k] + right->position_m[k]);
+  scene::ComposeJob job;
+  job.pack = &person_->view();
+  job.meshes = person_->meshes();
+  job.joints = person_->joints();
+  job.camera = scene::make_camera(scene::framing(pose.view, subject),
+                                  static_cast<float>(width_) / static_cast<float>(height_));
+  if (!job.run(list_.get()).ok())
+    throw std::runtime_error("the scene does not fit; this is a fault");
+  person_->collect_patches(&list_->patches);
+  if (!renderer_->draw(*list_).ok()) throw std::runtime_error("the renderer refused the picture");
+  Picture large(renderer_->width(), renderer_->height());
+  if (!renderer_->read_back(large.rgb).ok())
+    throw std::runtime_error("no picture can be read back");
+  return halved(large);
+}
+
+scene::View view_named(const std::string& name) {
+  constexpr std::pair<const char*, scene::View> kViews[] = {
+      {"front", scene::View::head},  {"left", scene::View::left},
+      {"right", scene::View::right}, {"three-quarter", scene::View::three_quarter},
+      {"bust", scene::View::bust},   {"body", scene::View::body},
+      {"feet", scene::View::feet}};
+  for (const auto& [n, view] : kViews)
+    if (name == n) return view;
+  throw std::runtime_error("--view " + name +
+                           ": wanted front, left, right, three-quarter, bust, body or feet");
+}
+
+face::FapFrame emotion_named(const std::string& text) {
+  const std::string name = text.substr(0, text.find(':'));
+  float strength = 1.0f;
+  bool ok = true;
+  if (name.size() < text.size()) {
+    const char* begin = text.data() + name.size() + 1;
+    const char* end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(begin, end, strength);
+    ok = error == std::errc{} && at == end && strength >= 0.0f && strength <= 1.0f;
+  }
+  const auto& names = emotion::kEmotionNames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (!ok || found == names.end())
+    throw std::runtime_error("--emotion " + text +
+                             ": wanted NAME or NAME:0..1 with calm, joy, "
+                             "sadness, anger, fear, disgust, surprise");
+  emotion::Weights weights{};
+  weights[static_cast<std::size_t>(found - names.begin())] = name == "calm" ? 0.0f : strength;
+  return emotion::expression(weights);
+}
+
+}  // namespace caryatid::tool
