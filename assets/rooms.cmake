@@ -15,5 +15,6 @@ if(bake_sources)
 endif()
 if(tool_sources)
   add_executable(caryatid-tool ${tool_sources})
-  target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_flags)
+  target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_render caryatid_display
+    caryatid_flags)
 endif()
