@@ -131,54 +131,54 @@ constexpr std::array<BapAxis, 180> kAxes = {{
     {HanimJoint::vl5, z, +1},                  // 120 vl5_roll
     {HanimJoint::vl5, y, +1},                  // 121 vl5_torsion
     {HanimJoint::vl5, x, -1},                  // 122 vl5_tilt
-    {HanimJoint::l_pinky0, x, -1},             // 123 l_pinky0_flexion
-    {HanimJoint::r_pinky0, x, -1},             // 124 r_pinky0_flexion
-    {HanimJoint::l_pinky1, x, -1},             // 125 l_pinky1_flexion
-    {HanimJoint::r_pinky1, x, -1},             // 126 r_pinky1_flexion
-    {HanimJoint::l_pinky1, z, +1},             // 127 l_pinky1_pivot
-    {HanimJoint::r_pinky1, z, +1},             // 128 r_pinky1_pivot
+    {HanimJoint::l_pinky0, z, -1},             // 123 l_pinky0_flexion
+    {HanimJoint::r_pinky0, z, +1},             // 124 r_pinky0_flexion
+    {HanimJoint::l_pinky1, z, -1},             // 125 l_pinky1_flexion
+    {HanimJoint::r_pinky1, z, +1},             // 126 r_pinky1_flexion
+    {HanimJoint::l_pinky1, x, -1},             // 127 l_pinky1_pivot
+    {HanimJoint::r_pinky1, x, -1},             // 128 r_pinky1_pivot
     {HanimJoint::l_pinky1, y, -1},             // 129 l_pinky1_twisting
     {HanimJoint::r_pinky1, y, -1},             // 130 r_pinky1_twisting
-    {HanimJoint::l_pinky2, x, -1},             // 131 l_pinky2_flexion
-    {HanimJoint::r_pinky2, x, -1},             // 132 r_pinky2_flexion
-    {HanimJoint::l_pinky3, x, -1},             // 133 l_pinky3_flexion
-    {HanimJoint::r_pinky3, x, -1},             // 134 r_pinky3_flexion
-    {HanimJoint::l_ring0, x, -1},              // 135 l_ring0_flexion
-    {HanimJoint::r_ring0, x, -1},              // 136 r_ring0_flexion
-    {HanimJoint::l_ring1, x, -1},              // 137 l_ring1_flexion
-    {HanimJoint::r_ring1, x, -1},              // 138 r_ring1_flexion
-    {HanimJoint::l_ring1, z, +1},              // 139 l_ring1_pivot
-    {HanimJoint::r_ring1, z, +1},              // 140 r_ring1_pivot
+    {HanimJoint::l_pinky2, z, -1},             // 131 l_pinky2_flexion
+    {HanimJoint::r_pinky2, z, +1},             // 132 r_pinky2_flexion
+    {HanimJoint::l_pinky3, z, -1},             // 133 l_pinky3_flexion
+    {HanimJoint::r_pinky3, z, +1},             // 134 r_pinky3_flexion
+    {HanimJoint::l_ring0, z, -1},              // 135 l_ring0_flexion
+    {HanimJoint::r_ring0, z, +1},              // 136 r_ring0_flexion
+    {HanimJoint::l_ring1, z, -1},              // 137 l_ring1_flexion
+    {HanimJoint::r_ring1, z, +1},              // 138 r_ring1_flexion
+    {HanimJoint::l_ring1, x, -1},              // 139 l_ring1_pivot
+    {HanimJoint::r_ring1, x, -1},              // 140 r_ring1_pivot
     {HanimJoint::l_ring1, y, -1},              // 141 l_ring1_twisting
     {HanimJoint::r_ring1, y, -1},              // 142 r_ring1_twisting
-    {HanimJoint::l_ring2, x, -1},              // 143 l_ring2_flexion
-    {HanimJoint::r_ring2, x, -1},              // 144 r_ring2_flexion
-    {HanimJoint::l_ring3, x, -1},              // 145 l_ring3_flexion
-    {HanimJoint::r_ring3, x, -1},              // 146 r_ring3_flexion
-    {HanimJoint::l_middle0, x, -1},            // 147 l_middle0_flexion
-    {HanimJoint::r_middle0, x, -1},            // 148 r_middle0_flexion
-    {HanimJoint::l_middle1, x, -1},            // 149 l_middle1_flexion
-    {HanimJoint::r_middle1, x, -1},            // 150 r_middle1_flexion
-    {HanimJoint::l_middle1, z, +1},            // 151 l_middle1_pivot
-    {HanimJoint::r_middle1, z, +1},            // 152 r_middle1_pivot
+    {HanimJoint::l_ring2, z, -1},              // 143 l_ring2_flexion
+    {HanimJoint::r_ring2, z, +1},              // 144 r_ring2_flexion
+    {HanimJoint::l_ring3, z, -1},              // 145 l_ring3_flexion
+    {HanimJoint::r_ring3, z, +1},              // 146 r_ring3_flexion
+    {HanimJoint::l_middle0, z, -1},            // 147 l_middle0_flexion
+    {HanimJoint::r_middle0, z, +1},            // 148 r_middle0_flexion
+    {HanimJoint::l_middle1, z, -1},            // 149 l_middle1_flexion
+    {HanimJoint::r_middle1, z, +1},            // 150 r_middle1_flexion
+    {HanimJoint::l_middle1, x, -1},            // 151 l_middle1_pivot
+    {HanimJoint::r_middle1, x, -1},            // 152 r_middle1_pivot
     {HanimJoint::l_middle1, y, -1},            // 153 l_middle1_twisting
     {HanimJoint::r_middle1, y, -1},            // 154 r_middle1_twisting
-    {HanimJoint::l_middle2, x, -1},            // 155 l_middle2_flexion
-    {HanimJoint::r_middle2, x, -1},            // 156 r_middle2_flexion
-    {HanimJoint::l_middle3, x, -1},            // 157 l_middle3_flexion
-    {HanimJoint::r_middle3, x, -1},            // 158 r_middle3_flexion
-    {HanimJoint::l_index0, x, -1},             // 159 l_index0_flexion
-    {HanimJoint::r_index0, x, -1},             // 160 r_index0_flexion
-    {HanimJoint::l_index1, x, -1},             // 161 l_index1_flexion
-    {HanimJoint::r_index1, x, -1},             // 162 r_index1_flexion
-    {HanimJoint::l_index1, z, +1},             // 163 l_index1_pivot
-    {HanimJoint::r_index1, z, +1},             // 164 r_index1_pivot
+    {HanimJoint::l_middle2, z, -1},            // 155 l_middle2_flexion
+    {HanimJoint::r_middle2, z, +1},            // 156 r_middle2_flexion
+    {HanimJoint::l_middle3, z, -1},            // 157 l_middle3_flexion
+    {HanimJoint::r_middle3, z, +1},            // 158 r_middle3_flexion
+    {HanimJoint::l_index0, z, -1},             // 159 l_index0_flexion
+    {HanimJoint::r_index0, z, +1},             // 160 r_index0_flexion
+    {HanimJoint::l_index1, z, -1},             // 161 l_index1_flexion
+    {HanimJoint::r_index1, z, +1},             // 162 r_index1_flexion
+    {HanimJoint::l_index1, x, -1},             // 163 l_index1_pivot
+    {HanimJoint::r_index1, x, -1},             // 164 r_index1_pivot
     {HanimJoint::l_index1, y, -1},             // 165 l_index1_twisting
     {HanimJoint::r_index1, y, -1},             // 166 r_index1_twisting
-    {HanimJoint::l_index2, x, -1},             // 167 l_index2_flexion
-    {HanimJoint::r_index2, x, -1},             // 168 r_index2_flexion
-    {HanimJoint::l_index3, x, -1},             // 169 l_index3_flexion
-    {HanimJoint::r_index3, x, -1},             // 170 r_index3_flexion
+    {HanimJoint::l_index2, z, -1},             // 167 l_index2_flexion
+    {HanimJoint::r_index2, z, +1},             // 168 r_index2_flexion
+    {HanimJoint::l_index3, z, -1},             // 169 l_index3_flexion
+    {HanimJoint::r_index3, z, +1},             // 170 r_index3_flexion
     {HanimJoint::l_thumb1, x, -1},             // 171 l_thumb1_flexion
     {HanimJoint::r_thumb1, x, -1},             // 172 r_thumb1_flexion
     {HanimJoint::l_thumb1, z, +1},             // 173 l_thumb1_pivot

@@ -16,6 +16,9 @@ enum class BapConvention : std::uint8_t {
   // Flexions and tilts about -X, abductions and rolls about +Z, torsions about +Y, limb twists
   // about -Y, wrist flexion about -Z (as a widespread decoder does). The convention of this
   // project's own frames: hip flexion > 0 lifts the thigh forward, knee flexion < 0 bends the knee.
+  // One departure: that decoder also flexes the fingers about -X, which spreads them where palms
+  // face the thighs; here they flex about Z towards the palm (> 0 closes either hand) and pivot
+  // about -X.
   signed_axes,
   // The same axes, all positive. Text files of the VREng project mean this: there hip flexion < 0
   // lifts the thigh and knee flexion > 0 bends the knee.

@@ -1,0 +1,59 @@
+#include "core/body/foot_roll.h"
+
+#include "core/base/trig.h"
+
+namespace caryatid::body {
+namespace {
+
+// Turns (z, y) by `rad`, toe up positive.
+Vec2 turned(Vec2 v, SinCos t) { return {v.x * t.cos - v.y * t.sin, v.x * t.sin + v.y * t.cos}; }
+
+// min(x, limit) with the corner rounded over +-width.
+float soft_limit(float x, float limit, float width) {
+  if (x <= limit - width) return x;
+  if (x >= limit + width) return limit;
+  const float over = x - (limit - width);
+  return x - over * over / (4.0f * width);
+}
+
+float min_of(float a, float b) { return a < b ? a : b; }
+
+}  // namespace
+
+FootShape foot_shape(const Skeleton& skeleton, bool left) {
+  const Vec3 ankle = skeleton.center(left ? HanimJoint::l_ankle : HanimJoint::r_ankle);
+  const Vec3 ball = skeleton.center(left ? HanimJoint::l_metatarsal : HanimJoint::r_metatarsal);
+  const Sole& sole = skeleton.sole[left ? 0 : 1];
+  const auto from_ankle = [&](Vec2 p) { return Vec2{p.x - ankle.z, p.y}; };
+  return {.ankle = {0.0f, ankle.y},
+          .metatarsal = from_ankle({ball.z, ball.y}),
+          .heel_back = from_ankle(sole.heel_back),
+          .heel = from_ankle(sole.heel),
+          .ball = from_ankle(sole.ball),
+          .toe = from_ankle(sole.toe),
+          .toe_tip = from_ankle(sole.toe_tip)};
+}
+
+FootRoll roll_foot(const FootShape& shape, float pitch_rad, float toe_bend_rad) {
+  if (pitch_rad >= 0.0f)
+    return {.ankle = shape.heel + turned(shape.ankle - shape.heel, sin_cos(pitch_rad))};
+  const float down = -pitch_rad;
+  const float bend = soft_limit(down, toe_bend_rad, 0.25f * toe_bend_rad);
+  const Vec2 joint = shape.toe + turned(shape.metatarsal - shape.toe, sin_cos(bend - down));
+  return {.ankle = joint + turned(shape.ankle - shape.metatarsal, sin_cos(pitch_rad)),
+          .toe_extension_rad = bend};
+}
+
+float lowest_point(const FootShape& shape, Vec2 ankle, float pitch_rad, float toe_extension_rad) {
+  const SinCos hind = sin_cos(pitch_rad);
+  const SinCos front = sin_cos(pitch_rad + toe_extension_rad);
+  const Vec2 joint = ankle + turned(shape.metatarsal - shape.ankle, hind);
+  float low = ankle.y + turned(shape.heel_back - shape.ankle, hind).y;
+  low = min_of(low, ankle.y + turned(shape.heel - shape.ankle, hind).y);
+  if (toe_extension_rad <= 0.0f)  // With bent toes the skin of the ball goes with them.
+    low = min_of(low, ankle.y + turned(shape.ball - shape.ankle, hind).y);
+  low = min_of(low, joint.y + turned(shape.toe - shape.metatarsal, front).y);
+  return min_of(low, joint.y + turned(shape.toe_tip - shape.metatarsal, front).y);
+}
+
+}  // namespace caryatid::body
