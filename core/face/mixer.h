@@ -8,7 +8,7 @@
 namespace caryatid::face {
 
 // All frames are optional (nullptr: absent) and borrowed for the call. Every frame should have been
-// through fill_missing(); FAPs 1 and 2 must have been expanded (visemes.h,
+// through fill_from_partners(); FAPs 1 and 2 must have been expanded (visemes.h,
 // core/emotion/profiles.h).
 struct MixJob {
   const FapFrame* rest = nullptr;  // The calm face of the pack; the MPEG-4 neutral looks startled.

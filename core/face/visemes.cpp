@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/face/interpolation.h"
+#include "core/face/fap_fill.h"
 
 namespace caryatid::face {
 namespace {
@@ -58,7 +58,7 @@ FapFrame viseme_frame(int viseme) {
   frame.set(44, shape.tip_up);
   frame.set(45, shape.tip_forward);
   frame.set(46, shape.body_up);
-  fill_missing(frame);
+  fill_from_partners(&frame);
   return frame;
 }
 

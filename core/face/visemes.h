@@ -8,8 +8,8 @@ namespace caryatid::face {
 // 13 Q; 14 U (SAMPA; ISO/IEC 14496-2 annex C).
 inline constexpr int kVisemeCount = 15;
 
-// Mouth and tongue FAPs of a viseme, outer lips and quarter points included (fill_missing). An
-// unknown number is viseme 0: every mouth FAP present and 0, lips shut.
+// Mouth and tongue FAPs of a viseme, outer lips and quarter points included (fill_from_partners).
+// An unknown number is viseme 0: every mouth FAP present and 0, lips shut.
 FapFrame viseme_frame(int viseme);
 
 // blend/63 of the first + (1 - blend/63) of the second; void when both are 0 (nothing present).

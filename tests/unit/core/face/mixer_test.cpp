@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/face/interpolation.h"
 #include "core/face/visemes.h"
 
 namespace caryatid::face {
@@ -132,31 +131,6 @@ TEST(Soften, IsExactWithinTheWorkingRangeAndNeverPassesTheLimit) {
     last = s;
   }
   EXPECT_EQ(soften(-50.0f, 0.0f, 115.0f), 0.0f);
-}
-
-TEST(FillMissing, TakesTheOtherSideAndTheOuterLip) {
-  FapFrame frame;
-  frame.set(6, 80.0f);
-  fill_missing(frame);
-  for (const int fap : {7, 53, 54}) EXPECT_EQ(frame.get(fap), 80.0f) << fap;
-}
-
-TEST(FillMissing, NeverChangesWhatIsThere) {
-  FapFrame frame;
-  frame.set(4, -100.0f);
-  frame.set(51, -10.0f);
-  frame.set(8, 3.0f);
-  fill_missing(frame);
-  EXPECT_EQ(frame.get(4), -100.0f);
-  EXPECT_EQ(frame.get(51), -10.0f);
-  EXPECT_EQ(frame.get(8), 3.0f);
-  EXPECT_EQ(frame.get(9), 3.0f);
-}
-
-TEST(FillMissing, EmptyFrameStaysEmpty) {
-  FapFrame frame;
-  fill_missing(frame);
-  EXPECT_FALSE(frame.mask.any());
 }
 
 TEST(Visemes, BlendFollowsTheRuleOfFap1) {
