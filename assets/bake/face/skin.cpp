@@ -98,8 +98,8 @@ std::vector<float> distance_m(const Skin& skin, std::span<const std::uint32_t> s
 std::vector<Vec3> normals(const Skin& skin, std::span<const Vec3> position_m) {
   std::vector<Vec3> out(skin.size(), Vec3(0));
   for (const auto& t : skin.triangles) {
-    const Vec3 n = glm::cross(position_m[t[1]] - position_m[t[0]],
-                              position_m[t[2]] - position_m[t[0]]);
+    const Vec3 n =
+        glm::cross(position_m[t[1]] - position_m[t[0]], position_m[t[2]] - position_m[t[0]]);
     for (const std::uint32_t v : t) out[v] += n;
   }
   for (Vec3& n : out) {

@@ -60,8 +60,7 @@ SmoothFields::SmoothFields(const Skin& skin, std::span<const std::uint32_t> give
   System& s = *system_;
   s.given.assign(given.begin(), given.end());
   s.free_index.assign(skin.size(), 0);
-  for (std::size_t i = 0; i < given.size(); ++i)
-    s.free_index[given[i]] = -1 - static_cast<int>(i);
+  for (std::size_t i = 0; i < given.size(); ++i) s.free_index[given[i]] = -1 - static_cast<int>(i);
   for (int& index : s.free_index)
     if (index == 0) index = ++s.free_count;  // From 1, so that 0 still meant "unseen".
   Sparse laplacian;

@@ -1,0 +1,148 @@
+#include "assets/bake/face/fat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "assets/bake/face/follow.h"
+#include "assets/bake/face/movement.h"
+#include "assets/bake/face/tongue.h"
+#include "core/face/fat.h"
+
+namespace caryatid::bake {
+namespace {
+
+using namespace face;
+
+constexpr float kLeastMove_m = 5e-6f;        // Below this nothing shows: a pixel is 100 times more.
+constexpr float kLeastNormalChange = 0.02f;  // About a degree.
+
+Range reach_of(const WorkingRanges& ranges, int fap) {
+  const auto i = static_cast<std::size_t>(fap);
+  return {ranges.low[i] * caryatid::face::kReach, ranges.high[i] * caryatid::face::kReach};
+}
+
+pack::Channel channel_of(const Movement& movement, std::size_t step) {
+  const auto steps = static_cast<float>(movement.frames.size());
+  pack::Channel channel{};
+  channel.fap = static_cast<std::uint16_t>(movement.fap);
+  channel.from = movement.reach * static_cast<float>(step) / steps;
+  channel.to = movement.reach * static_cast<float>(step + 1) / steps;
+  channel.partner = static_cast<std::uint16_t>(movement.partner);
+  channel.partner_to = movement.partner_to;
+  return channel;
+}
+
+void add_move(std::vector<Move>& moves, std::uint32_t vertex, Vec3 displacement, Vec3 normal) {
+  if (glm::length(displacement) < kLeastMove_m && glm::length(normal) < kLeastNormalChange) return;
+  moves.push_back({vertex, displacement, normal});
+}
+
+// A vertex on a border keeps its place and its shading, or the seam would show.
+std::vector<bool> border_of(const Skin& skin) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const auto& quad : skin.quads)
+    for (std::size_t i = 0; i < 4; ++i) ++uses[std::minmax(quad[i], quad[(i + 1) % 4])];
+  std::vector<bool> border(skin.size(), false);
+  for (const auto& [edge, count] : uses)
+    if (count == 1) border[edge.first] = border[edge.second] = true;
+  return border;
+}
+
+class Tables {
+ public:
+  Tables(Character& character, const Head& head) : character_(character), head_(head) {
+    border_ = border_of(head.skin);
+    for (std::size_t o = 0; o < character.objects.size(); ++o) {
+      Object& object = character.objects[o];
+      object.moves.clear();
+      if (object.role == pack::ObjectRole::brow) carriers_[o] = carriers_of_brow(head, object.mesh);
+      if (object.role == pack::ObjectRole::lash) carriers_[o] = carriers_of_lash(head, object.mesh);
+    }
+  }
+
+  void add(const Movement& movement) {
+    const std::vector<Vec3> rest(head_.skin.size(), Vec3(0));
+    const std::vector<Vec3>* before = &rest;
+    std::vector<Vec3> normal_before = head_.normal;
+    for (std::size_t k = 0; k < movement.frames.size(); ++k) {
+      const std::vector<Vec3>& after = movement.frames[k];
+      std::vector<Vec3> place = head_.skin.position_m;
+      for (std::size_t v = 0; v < place.size(); ++v) place[v] += after[v];
+      std::vector<Vec3> normal_after = normals(head_.skin, place);
+      const std::size_t channel = add_channel(channel_of(movement, k));
+      for (std::size_t o = 0; o < character_.objects.size(); ++o) {
+        Object& object = character_.objects[o];
+        std::vector<Move>& moves = object.moves[channel];
+        if (object.role == pack::ObjectRole::head)
+          move_skin(object.mesh, *before, after, normal_before, normal_after, moves);
+        else if (const auto found = carriers_.find(o); found != carriers_.end())
+          move_part(object.mesh, found->second, *before, after, moves);
+      }
+      before = &after;
+      normal_before = std::move(normal_after);
+    }
+  }
+
+  // A channel that moves nothing by itself tells the FAP's limits.
+  std::size_t add_channel(const pack::Channel& channel) {
+    character_.channels.push_back(channel);
+    for (Object& object : character_.objects) object.moves.emplace_back();
+    return character_.channels.size() - 1;
+  }
+
+ private:
+  void move_skin(const Mesh& mesh, const std::vector<Vec3>& before, const std::vector<Vec3>& after,
+                 const std::vector<Vec3>& normal_before, const std::vector<Vec3>& normal_after,
+                 std::vector<Move>& moves) const {
+    for (std::uint32_t i = 0; i < mesh.position_m.size(); ++i) {
+      const std::uint32_t base = mesh.base_vertex[i];
+      const std::uint32_t v = base == kNone ? kNone : head_.skin.of_base[base];
+      if (v == kNone || border_[v]) continue;
+      add_move(moves, i, after[v] - before[v], normal_after[v] - normal_before[v]);
+    }
+  }
+
+  void move_part(const Mesh& mesh, const Carriers& carriers, const std::vector<Vec3>& before,
+                 const std::vector<Vec3>& after, std::vector<Move>& moves) const {
+    for (std::uint32_t i = 0; i < mesh.position_m.size(); ++i) {
+      const Vec3 p = mesh.position_m[i];
+      add_move(moves, i,
+               followed(head_, carriers[i], p, after) - followed(head_, carriers[i], p, before),
+               Vec3(0));
+    }
+  }
+
+  Character& character_;
+  const Head& head_;
+  std::vector<bool> border_;
+  std::map<std::size_t, Carriers> carriers_;
+};
+
+}  // namespace
+
+void build_fat(Character& character, const BaseHuman& base, const WorkingRanges& ranges) {
+  const Head head = make_head(character, base);
+  const ReachOf reach = [&](int fap) { return reach_of(ranges, fap); };
+  std::vector<Movement> movements;
+  add_brows(head, reach, movements);
+  add_lids(head, reach, movements);
+  add_lips(head, reach, movements);
+  add_jaw(head, reach, movements);
+  add_bumps(head, reach, movements);
+  std::stable_sort(movements.begin(), movements.end(),
+                   [](const Movement& a, const Movement& b) { return a.fap < b.fap; });
+  character.channels.clear();
+  Tables tables(character, head);
+  for (const Movement& movement : movements) tables.add(movement);
+  for (const TongueMove& move : tongue_moves(character, head, reach))
+    character.objects[move.object].moves[tables.add_channel(move.channel)] = move.moves;
+  // Turned, not deformed: eyeballs, pupils, head.
+  for (const auto [first, last] : {std::pair{23, 30}, std::pair{48, 50}})
+    for (int fap = first; fap <= last; ++fap)
+      for (const float end : {reach(fap).low, reach(fap).high})
+        if (end != 0.0f)
+          tables.add_channel({static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f});
+}
+
+}  // namespace caryatid::bake

@@ -1,0 +1,99 @@
+// Jaw (masseter and temporalis shut, digastric and pterygoids open, thrust and shift): the skin
+// over the mandible turns with it about the axis through both temporomandibular joints; lips stay,
+// as the standard says of FAP 3. The lower lip swings back with the jaw when its own FAPs lower it.
+#include <algorithm>
+#include <cmath>
+
+#include "assets/bake/face/movement.h"
+#include "assets/bake/face/smooth.h"
+
+namespace caryatid::bake::face {
+namespace {
+
+// Share of the mandible's motion at every skin vertex: the rig's, but nothing on the lips, and
+// smooth between them and the chin.
+std::vector<float> jaw_weight(const Head& head) {
+  std::vector<std::uint32_t> given;
+  std::vector<float> value;
+  std::vector<bool> taken(head.skin.size(), false);
+  std::vector<std::uint32_t> contour;
+  const auto give = [&](std::uint32_t v, float w) {
+    if (taken[v]) return;
+    taken[v] = true;
+    given.push_back(v);
+    value.push_back(w);
+  };
+  for (const Lips& lips : head.lips) {
+    const std::size_t first = std::min(lips.upper_outer, lips.lower_outer);
+    const std::size_t last = std::max(lips.upper_inner, lips.lower_inner);
+    for (std::size_t r = first; r <= last; ++r)
+      for (const std::uint32_t v : lips.row[r]) {
+        give(v, 0.0f);
+        contour.push_back(v);
+      }
+  }
+  // FAPs 5 and 52 are exact: their points lie on these rows; the rest of the face has the rig's.
+  const float scale = 1.0f / std::max(head.mandible[head.vertex_of(2, 1)], 0.5f);
+  const auto away = distance_m(head.skin, contour, 0.05f);
+  for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
+    const bool below_lip = head.skin.position_m[v].y < head.place_of(2, 3).y;
+    const float blend = below_lip ? 0.016f : 0.024f;
+    if (away[v] < blend) continue;
+    give(v, std::clamp(head.mandible[v] * scale, 0.0f, 1.0f));
+  }
+  std::vector<float> weight = SmoothFields(head.skin, given).solve(value);
+  for (float& w : weight) w = std::clamp(w, 0.0f, 1.0f);
+  weight[head.vertex_of(2, 1)] = 1.0f;
+  return weight;
+}
+
+Vec3 turned(Vec3 p, Vec3 center, float angle) {
+  const float c = std::cos(angle), s = std::sin(angle);
+  const float y = p.y - center.y, z = p.z - center.z;
+  return {p.x, center.y + c * y - s * z, center.z + s * y + c * z};
+}
+
+}  // namespace
+
+void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out) {
+  const std::vector<float> weight = jaw_weight(head);
+  const Vec3 center = head.transforms.jaw_center_m;
+  const auto drop = [&](float m) {
+    const float angle = caryatid::face::jaw_angle_rad(head.transforms, m);
+    std::vector<Vec3> field(head.skin.size(), Vec3(0));
+    for (std::uint32_t v = 0; v < field.size(); ++v) {
+      // Half-way skin is carried by a smaller turn, not along the chord: cheeks do not cave in.
+      const Vec3 p = head.skin.position_m[v];
+      if (weight[v] > 0.0f) field[v] = turned(p, center, angle * weight[v]) - p;
+    }
+    return field;
+  };
+  add_movements(head, 3, reach(3), 3, drop, out);
+  const auto shift = [&](Vec3 axis) {
+    return [&head, &weight, axis](float m) {
+      std::vector<Vec3> field;
+      for (const float w : weight) field.push_back(w * m * axis);
+      return field;
+    };
+  };
+  add_movements(head, 14, reach(14), 1, shift({0, 0, 1}), out);
+  add_movements(head, 15, reach(15), 1, shift({-1, 0, 0}), out);
+
+  // Corrections: a lower lip that its own FAPs lower swings back with an open jaw.
+  const Vec3 arm = head.place_of(2, 3) - center;
+  const float back = 0.7f * -arm.y / arm.z;  // Part along -z for one unit downwards.
+  std::vector<Movement> swings;
+  for (const Movement& m : out) {
+    const bool lower =
+        m.fap == 5 || m.fap == 10 || m.fap == 11 || m.fap == 52 || m.fap == 57 || m.fap == 58;
+    if (!lower || m.reach > 0 || m.partner != 0) continue;
+    Movement swing{.fap = m.fap, .reach = m.reach, .frames = {}, .partner = 3, .partner_to = 300};
+    std::vector<Vec3> field = m.frames.back();
+    for (Vec3& d : field) d = {0, 0, back * d.y};
+    swing.frames.push_back(std::move(field));
+    swings.push_back(std::move(swing));
+  }
+  for (Movement& s : swings) out.push_back(std::move(s));
+}
+
+}  // namespace caryatid::bake::face

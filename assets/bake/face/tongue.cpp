@@ -1,0 +1,82 @@
+#include "assets/bake/face/tongue.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace caryatid::bake::face {
+namespace {
+
+// Where a vertex lies on the tongue: along from root (0) to tip (1), across from -1 to 1.
+struct Place {
+  float along = 0, across = 0;
+};
+
+struct Tongue {
+  const Mesh& mesh;
+  Vec3 low{1e9f}, high{-1e9f};
+  Vec3 tip{0}, body{0};
+
+  Place at(Vec3 p) const {
+    return {(p.z - low.z) / (high.z - low.z), 2.0f * (p.x - low.x) / (high.x - low.x) - 1.0f};
+  }
+};
+
+float smooth(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+// Only the front half follows the tip, the more the nearer to it.
+float tip_share(const Tongue& tongue, Vec3 p) {
+  const float from = 0.35f, at = tongue.at(p).along, tip = tongue.at(tongue.tip).along;
+  return smooth((at - from) / (tip - from));
+}
+
+float body_share(const Tongue& tongue, Vec3 p) {
+  const float d = (tongue.at(p).along - tongue.at(tongue.body).along) / 0.45f;
+  return std::abs(d) < 1.0f ? (1.0f - d * d) * (1.0f - d * d) : 0.0f;
+}
+
+// Edges rise about the mid-line like the leaves of a book.
+Vec3 rolled(const Tongue& tongue, Vec3 p, float angle) {
+  const float middle = 0.5f * (tongue.low.x + tongue.high.x);
+  const float bend = angle * smooth(std::abs(tongue.at(p).across)) * smooth(tongue.at(p).along * 2);
+  const float x = p.x - middle;
+  return {x * (std::cos(bend) - 1.0f), std::abs(x) * std::sin(bend), 0};
+}
+
+}  // namespace
+
+std::vector<TongueMove> tongue_moves(const Character& character, const Head& head,
+                                     const ReachOf& reach) {
+  std::vector<TongueMove> out;
+  for (std::uint32_t o = 0; o < character.objects.size(); ++o) {
+    if (character.objects[o].name != "tongue") continue;
+    Tongue tongue{.mesh = character.objects[o].mesh};
+    for (const Vec3& p : tongue.mesh.position_m) {
+      tongue.low = glm::min(tongue.low, p);
+      tongue.high = glm::max(tongue.high, p);
+    }
+    tongue.tip = head.place_of(6, 1);
+    tongue.body = head.place_of(6, 2);
+    const auto add = [&](int fap, const std::function<Vec3(Vec3 p, float m)>& displace) {
+      for (const float end : {reach(fap).low, reach(fap).high}) {
+        if (end == 0.0f) continue;
+        TongueMove move{o, {static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f}, {}};
+        const float amount = end * metres_per_unit(head, fap);
+        for (std::uint32_t i = 0; i < tongue.mesh.position_m.size(); ++i)
+          if (const Vec3 d = displace(tongue.mesh.position_m[i], amount); glm::length(d) > 5e-6f)
+            move.moves.push_back({i, d, Vec3(0)});
+        out.push_back(std::move(move));
+      }
+    };
+    add(43, [&](Vec3 p, float m) { return Vec3(-m * tip_share(tongue, p), 0, 0); });
+    add(44, [&](Vec3 p, float m) { return Vec3(0, m * tip_share(tongue, p), 0); });
+    add(45, [&](Vec3 p, float m) { return Vec3(0, 0, m * tip_share(tongue, p)); });
+    add(46, [&](Vec3 p, float m) { return Vec3(0, m * body_share(tongue, p), 0); });
+    add(47, [&](Vec3 p, float angle) { return rolled(tongue, p, angle); });
+  }
+  return out;
+}
+
+}  // namespace caryatid::bake::face
