@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/emotion/profiles.h"
-#include "core/face/interpolation.h"
+#include "core/face/fap_fill.h"
 #include "core/face/visemes.h"
 
 namespace caryatid::app {
@@ -87,7 +87,7 @@ void Player::seek(double time_s) {
   faps_ = raw_faps_;
   face::expand_viseme(faps_);
   emotion::expand_expression(faps_);
-  face::fill_missing(faps_);
+  face::fill_from_partners(&faps_);
 }
 
 }  // namespace caryatid::app

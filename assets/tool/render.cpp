@@ -7,7 +7,7 @@
 #include "assets/tool/commands.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/profiles.h"
-#include "core/face/interpolation.h"
+#include "core/face/fap_fill.h"
 #include "core/face/visemes.h"
 #include "core/stream/bap_text.h"
 #include "core/stream/fap_text.h"
@@ -67,7 +67,7 @@ void render(const RenderArgs& a) {
     pose.absolute = true;
     face::expand_viseme(pose.faps);
     emotion::expand_expression(pose.faps);
-    face::fill_missing(pose.faps);
+    face::fill_from_partners(&pose.faps);
   }
   set_faps(a.set, &pose.faps);
   if (!a.bap.empty()) pose.baps = frame_of<stream::BapTextReader, body::BapFrame>(a.bap);

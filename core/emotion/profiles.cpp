@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/face/interpolation.h"
+#include "core/face/fap_fill.h"
 
 namespace caryatid::emotion {
 namespace {
@@ -104,7 +104,7 @@ face::FapFrame peak_face(Emotion e) {
   face::FapFrame out;
   for (const ProfileEntry& p : profile(e))
     out.set(p.fap, p.mean > 0.0f ? p.mean + p.deviation : p.mean - p.deviation);
-  face::fill_missing(out);
+  face::fill_from_partners(&out);
   return out;
 }
 
@@ -126,7 +126,8 @@ void expand_expression(face::FapFrame& frame) {
   const face::ExpressionField& f = frame.expression;
   Weights weights{};
   const auto add = [&weights](std::uint8_t select, std::uint8_t intensity) {
-    if (select > 0 && select < kEmotionCount) weights[select] += static_cast<float>(intensity) / 63.0f;
+    if (select > 0 && select < kEmotionCount)
+      weights[select] += static_cast<float>(intensity) / 63.0f;
   };
   add(f.first, f.first_intensity);
   add(f.second, f.second_intensity);

@@ -138,7 +138,7 @@ void build_fat(Character& character, const BaseHuman& base, const WorkingRanges&
   for (const TongueMove& move : tongue_moves(character, head, reach))
     character.objects[move.object].moves[tables.add_channel(move.channel)] = move.moves;
   // Turned, not deformed: eyeballs, pupils, head.
-  for (const auto [first, last] : {std::pair{23, 30}, std::pair{48, 50}})
+  for (const auto& [first, last] : {std::pair{23, 30}, std::pair{48, 50}})
     for (int fap = first; fap <= last; ++fap)
       for (const float end : {reach(fap).low, reach(fap).high})
         if (end != 0.0f)
