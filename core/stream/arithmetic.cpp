@@ -53,15 +53,34 @@ void ModelPool::halve(AdaptiveModel* model) {
   }
 }
 
+void ModelPool::forget(AdaptiveModel* model) {
+  std::uint32_t at = model->first;
+  while (at != 0) {
+    const std::uint32_t next = nodes_[at - 1].next;
+    nodes_[at - 1].next = free_;
+    free_ = at;
+    ++free_count_;
+    at = next;
+  }
+  *model = {};
+}
+
 bool ModelPool::count(AdaptiveModel* model, std::uint32_t symbols, std::uint32_t symbol) {
   std::uint32_t* link = &model->first;
   while (*link != 0 && nodes_[*link - 1].symbol > symbol) link = &nodes_[*link - 1].next;
   const bool known = *link != 0 && nodes_[*link - 1].symbol == symbol;
-  if (!known && used_ == nodes_.size()) return false;
+  if (!known && free_ == 0 && used_ == nodes_.size()) return false;
   if (total(*model, symbols) == kMaxTotal) halve(model);
   if (!known) {
-    nodes_[used_++] = {static_cast<std::uint16_t>(symbol), 0, *link};
-    *link = static_cast<std::uint32_t>(used_);
+    std::uint32_t fresh = free_;
+    if (fresh != 0) {
+      free_ = nodes_[fresh - 1].next;
+      --free_count_;
+    } else {
+      fresh = static_cast<std::uint32_t>(++used_);
+    }
+    nodes_[fresh - 1] = {static_cast<std::uint16_t>(symbol), 0, *link};
+    *link = fresh;
   }
   ++nodes_[*link - 1].extra;
   ++model->extra_sum;

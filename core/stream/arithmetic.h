@@ -35,8 +35,10 @@ struct AdaptiveModel {
 class ModelPool {
  public:
   explicit ModelPool(std::span<ModelNode> nodes) : nodes_(nodes) {}
-  void clear() { used_ = 0; }
-  std::size_t used() const { return used_; }
+  // Nodes in use.
+  std::size_t used() const { return used_ - free_count_; }
+  // Back to equal frequencies; the nodes may be used again.
+  void forget(AdaptiveModel* model);
 
   static std::uint32_t total(const AdaptiveModel& model, std::uint32_t symbols) {
     return symbols + model.extra_sum;
@@ -53,7 +55,9 @@ class ModelPool {
   void halve(AdaptiveModel* model);
 
   std::span<ModelNode> nodes_;
-  std::size_t used_ = 0;
+  std::size_t used_ = 0;    // Nodes that have ever been used.
+  std::uint32_t free_ = 0;  // Index + 1 of the first node given back.
+  std::size_t free_count_ = 0;
 };
 
 // Decodes one segment; start it where the segment starts, end it with finish().
