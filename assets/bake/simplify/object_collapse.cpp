@@ -86,6 +86,7 @@ class ObjectCollapse {
   Plan plan_onto(std::uint32_t h, const EdgeSums& sums) const;
   bool share_a_bone(std::uint32_t h) const;
   bool keeps_shape(const Plan& plan) const;
+  bool keeps_wedges(const Plan& plan) const;
   void push(std::uint32_t h);
   void refresh_around(std::uint32_t v);
   void collapse(const Plan& plan);
@@ -404,6 +405,40 @@ bool ObjectCollapse::keeps_shape(const Plan& plan) const {
   return good;
 }
 
+// Whether every wedge of the triangles that disappear still has a triangle afterwards, apart from
+// those that go with the vertex: a record has no place for others, their slots would be lost.
+bool ObjectCollapse::keeps_wedges(const Plan& plan) const {
+  const std::uint32_t h = plan.half_edge, back = mesh_.twin[h];
+  const std::uint32_t keep = mesh_.from[h], gone = mesh_.to(h);
+  const auto removed = [&](std::uint32_t e) {
+    return e / 3 == h / 3 || (back != kNoHalfEdge && e / 3 == back / 3);
+  };
+  // The wedge that a corner at `gone` takes on.
+  const auto renamed = [&](std::uint32_t wedge) {
+    if (wedge == wedge_[next_in_triangle(h)]) return wedge_[h];
+    if (back != kNoHalfEdge && wedge == wedge_[back]) return wedge_[next_in_triangle(back)];
+    return wedge;
+  };
+  bool all = true;
+  for (const std::uint32_t side : {h, back}) {
+    if (side == kNoHalfEdge) continue;
+    for (const std::uint32_t corner : {side, next_in_triangle(side), prev_in_triangle(side)}) {
+      if (mesh_.from[corner] == gone) continue;
+      bool kept = false;
+      mesh_.for_fan(mesh_.from[corner],
+                    [&](std::uint32_t e) { kept |= !removed(e) && wedge_[e] == wedge_[corner]; });
+      if (mesh_.from[corner] == keep)
+        mesh_.for_fan(gone, [&](std::uint32_t e) {
+          kept |= !removed(e) && renamed(wedge_[e]) == wedge_[corner];
+        });
+      all &= kept;
+    }
+  }
+  // A wedge of `gone` without a pair would stay behind on no vertex.
+  mesh_.for_fan(gone, [&](std::uint32_t e) { all &= renamed(wedge_[e]) != wedge_[e]; });
+  return all;
+}
+
 void ObjectCollapse::push(std::uint32_t h) {
   const std::uint32_t t = mesh_.twin[h];
   if (t != kNoHalfEdge && t < h) h = t;
@@ -525,7 +560,7 @@ ObjectHistory ObjectCollapse::run() {
       continue;
     const Plan p = plan(top.half_edge);
     if (p.kind == Kind::none || !mesh_.link_condition(p.half_edge, mark_, stamp_) ||
-        !keeps_shape(p))
+        !keeps_shape(p) || !keeps_wedges(p))
       continue;
     const std::uint32_t keep = mesh_.from[p.half_edge];
     collapse(p);
