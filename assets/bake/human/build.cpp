@@ -1,0 +1,212 @@
+#include "assets/bake/human/build.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "assets/bake/human/cover.h"
+#include "assets/bake/human/figure.h"
+#include "assets/bake/human/mesh_tools.h"
+#include "assets/bake/human/skeleton.h"
+#include "assets/bake/texture/image.h"
+
+namespace caryatid::bake {
+namespace {
+
+constexpr float kClothGap_m = 0.004f;
+// hm08 has an edge loop of 46 vertices at the foot of the neck, all others above it are head.
+constexpr float kNeckLoop_m = 0.59f;
+
+enum class Region : std::uint8_t { head, body, legs, l_hand, r_hand, count };
+constexpr const char* kRegionNames[] = {"head", "body", "legs", "l_hand", "r_hand"};
+
+// Which skin object each vertex of the base would choose.
+std::vector<Region> vertex_regions(const BaseHuman& base) {
+  std::vector<Region> of_bone;
+  for (const Bone& bone : base.bones()) {
+    const auto is = [&](const char* stem) { return bone.name.starts_with(stem); };
+    Region region = Region::body;
+    if (is("wrist") || is("finger") || is("metacarpal"))
+      region = bone.name.ends_with(".L") ? Region::l_hand : Region::r_hand;
+    if (is("upperleg") || is("lowerleg") || is("foot") || is("toe")) region = Region::legs;
+    of_bone.push_back(region);
+  }
+  std::vector<Region> out(BaseHuman::kVertexCount, Region::body);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    std::array<float, static_cast<std::size_t>(Region::count)> share{};
+    const Influence& influence = base.influence()[i];
+    for (std::size_t k = 0; k < 4; ++k)
+      share[static_cast<std::size_t>(of_bone[influence.joint[k]])] += influence.weight[k];
+    out[i] = static_cast<Region>(std::max_element(share.begin(), share.end()) - share.begin());
+    if (base.rest_m()[i].y > kNeckLoop_m) out[i] = Region::head;
+  }
+  return out;
+}
+
+// A quad belongs to a region when all its vertices do; mixed ones go to the body.
+Region quad_region(const Quad& quad, std::span<const Region> regions) {
+  for (const std::uint32_t v : quad.vertex)
+    if (regions[v] != regions[quad.vertex[0]]) return Region::body;
+  return regions[quad.vertex[0]];
+}
+
+class Builder {
+ public:
+  Builder(const Recipe& recipe, const BaseHuman& base)
+      : recipe_(recipe), base_(base), figure_(make_figure(recipe, base)) {
+    stand(figure_);
+    const Vec3 eyes[2] = {figure_.eye_center_m(0), figure_.eye_center_m(1)};
+    out_.name = recipe.name;
+    out_.joints = hanim_joints(base, figure_.bone_head_m, eyes);
+    weights_ = std::make_unique<WeightMap>(base, out_.joints);
+  }
+
+  Character build() {
+    add_skin();
+    for (const FittedPart& part : figure_.parts) add_part(part);
+    for (const auto& [fap, value] : recipe_.rest_face)
+      out_.rest_face[static_cast<std::size_t>(fap)] = value;
+    check_bones();
+    return std::move(out_);
+  }
+
+ private:
+  std::uint16_t add_image(Image image) {
+    out_.images.push_back(std::move(image));
+    return static_cast<std::uint16_t>(out_.images.size() - 1);
+  }
+  std::uint32_t add_material(pack::MaterialKind kind, unsigned flags, std::uint16_t texture,
+                             float gloss, float shininess) {
+    pack::Material material{};
+    material.kind = kind;
+    material.flags = static_cast<std::uint16_t>(flags);
+    material.texture = texture;
+    material.detail = pack::kNoTexture;
+    for (float& t : material.tint) t = 1.0f;
+    material.gloss = gloss;
+    material.shininess = shininess;
+    out_.materials.push_back(material);
+    return static_cast<std::uint32_t>(out_.materials.size() - 1);
+  }
+
+  void add_skin() {
+    std::vector<Quad> skin;
+    for (const Quad& quad : base_.quads())
+      if (quad.group == 0) skin.push_back(quad);
+    // Normals before the push beneath the clothes: what shows keeps its shading.
+    const auto normals = smooth_normals(skin, figure_.base_m);
+    const auto rest_m = figure_.base_m;
+    const std::vector<bool> hidden = cover_skin(figure_, kClothGap_m);
+    const auto regions = vertex_regions(base_);
+    const Image image = read_image(base_.folder() / "public/data/skins" / recipe_.skin.texture);
+    out_.licences.push_back({recipe_.skin.texture, "CC0-1.0 (MakeHuman core asset)", "MakeHuman"});
+    const std::uint32_t material =
+        add_material(pack::MaterialKind::skin, 0, add_image(image), 0.08f, 18.0f);
+    const MeshSource source{
+        skin,
+        figure_.base_m,
+        normals,
+        base_.uvs(),
+        [&](std::uint32_t v) { return (*weights_)(base_.influence()[v], rest_m[v]); },
+        true};
+    for (std::size_t r = 0; r < static_cast<std::size_t>(Region::count); ++r) {
+      Object object;
+      object.name = kRegionNames[r];
+      object.role = r == 0 ? pack::ObjectRole::head : pack::ObjectRole::body;
+      object.material = material;
+      object.mesh = make_mesh(source, [&](const Quad& quad) {
+        const bool covered = std::all_of(quad.vertex.begin(), quad.vertex.end(),
+                                         [&](std::uint32_t v) { return hidden[v]; });
+        return !covered && quad_region(quad, regions) == static_cast<Region>(r);
+      });
+      if (!object.mesh.triangles.empty()) out_.objects.push_back(std::move(object));
+    }
+    lock_shared_borders();
+  }
+
+  // Vertices that two skin objects share never move: their borders stay bit-equal at every level.
+  void lock_shared_borders() {
+    std::map<std::uint32_t, std::set<std::size_t>> owners;
+    for (std::size_t o = 0; o < out_.objects.size(); ++o)
+      for (const std::uint32_t v : out_.objects[o].mesh.base_vertex) owners[v].insert(o);
+    for (Object& object : out_.objects)
+      for (std::uint32_t i = 0; i < object.mesh.base_vertex.size(); ++i)
+        if (owners[object.mesh.base_vertex[i]].size() > 1) object.locked.push_back(i);
+  }
+
+  Image part_image(const FittedPart& part) const {
+    if (part.proxy.textures.empty()) throw std::runtime_error(part.proxy.name + ": has no texture");
+    const auto file = part.recipe.texture.empty() ? part.proxy.textures.front()
+                                                  : part.proxy.folder / part.recipe.texture;
+    LinearImage image = to_linear(read_image(file));
+    for (Vec4& t : image.texel) {
+      const float grey = glm::dot(Vec3{t}, Vec3{0.2126f, 0.7152f, 0.0722f});
+      t = Vec4{glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint, t.w};
+    }
+    return to_srgb(image, file.stem().string());
+  }
+
+  void add_part(const FittedPart& part) {
+    out_.licences.push_back(part.proxy.licence);
+    const std::string& name = part.proxy.name;
+    const std::string kind = name.substr(0, name.find('/'));
+    pack::MaterialKind material = pack::MaterialKind::cloth;
+    pack::ObjectRole role = pack::ObjectRole::clothes;
+    unsigned flags = 0;
+    if (kind == "hair") {
+      material = pack::MaterialKind::hair, role = pack::ObjectRole::hair;
+      flags = pack::kTwoSided | pack::kAlphaBlend;
+    } else if (kind == "eyebrows" || kind == "eyelashes") {
+      material = pack::MaterialKind::lash;
+      role = kind == "eyebrows" ? pack::ObjectRole::brow : pack::ObjectRole::lash;
+      flags = pack::kTwoSided | pack::kAlphaBlend;
+    } else if (kind == "teeth" || kind == "tongue") {
+      material = pack::MaterialKind::mouth, role = pack::ObjectRole::mouth;
+    } else if (kind == "eyes") {
+      material = pack::MaterialKind::eye, role = pack::ObjectRole::eye;
+    }
+    const std::uint32_t m = add_material(material, flags, add_image(part_image(part)),
+                                         part.recipe.gloss, part.recipe.shininess);
+    const auto normals = smooth_normals(part.proxy.quads, part.position_m);
+    const MeshSource source{
+        part.proxy.quads,
+        part.position_m,
+        normals,
+        part.proxy.uvs,
+        [&](std::uint32_t v) { return (*weights_)(part.proxy.influence[v], part.position_m[v]); },
+        false};
+    Object object;
+    object.name = kind == "clothes" ? name.substr(name.find('/') + 1) : kind;
+    object.role = role;
+    object.material = m;
+    object.mesh = make_mesh(source, [](const Quad&) { return true; });
+    out_.objects.push_back(std::move(object));
+  }
+
+  void check_bones() const {
+    for (const Object& object : out_.objects) {
+      std::set<std::uint16_t> joints;
+      for (const Influence& influence : object.mesh.influence)
+        for (std::size_t k = 0; k < 4; ++k)
+          if (influence.weight[k] > 0) joints.insert(influence.joint[k]);
+      if (joints.size() > kMaxBonesPerDraw)
+        throw std::runtime_error(object.name + ": hangs on " + std::to_string(joints.size()) +
+                                 " joints, a draw holds " + std::to_string(kMaxBonesPerDraw));
+    }
+  }
+
+  const Recipe& recipe_;
+  const BaseHuman& base_;
+  Figure figure_;
+  Character out_;
+  std::unique_ptr<WeightMap> weights_;
+};
+
+}  // namespace
+
+Character build_character(const Recipe& recipe, const BaseHuman& base) {
+  return Builder(recipe, base).build();
+}
+
+}  // namespace caryatid::bake

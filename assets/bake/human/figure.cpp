@@ -1,0 +1,103 @@
+#include "assets/bake/human/figure.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "assets/bake/human/mesh_tools.h"
+#include "assets/bake/human/repose.h"
+
+namespace caryatid::bake {
+namespace {
+
+// MakeHuman's own core assets are CC0 since 2020 (LICENSE.md, section C of the project); their
+// authors in the package's files tell them from what users contributed.
+bool is_core_author(const std::string& author) {
+  for (const char* name :
+       {"Manuel Bastioni", "Manuel bastioni", "Jonas Hauquier", "Thomas Larsson", "MakeHuman Team"})
+    if (author.starts_with(name)) return true;
+  return false;
+}
+
+// Refuses what may not be passed on; names the licence that applies.
+void settle_licence(Licence& licence) {
+  if (is_core_author(licence.author)) {
+    licence.licence = "CC0-1.0 (MakeHuman core asset)";
+    return;
+  }
+  for (const char* free : {"CC0", "CC BY", "CCBY", "CC-BY"})
+    if (licence.licence.starts_with(free)) return;
+  throw std::runtime_error(licence.source + ": its licence (" + licence.licence +
+                           ") does not allow what this project does with it");
+}
+
+}  // namespace
+
+const FittedPart* Figure::part(std::string_view kind) const {
+  for (const FittedPart& part : parts)
+    if (part.proxy.name.starts_with(kind)) return &part;
+  return nullptr;
+}
+
+Vec3 Figure::eye_center_m(int side) const {
+  // The helper eyeball of the base is a sphere: the middle of its box is its centre.
+  const std::uint16_t group = base->group(side == 0 ? "helper-l-eye" : "helper-r-eye");
+  Vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
+  for (const Quad& quad : base->quads())
+    if (quad.group == group)
+      for (const std::uint32_t v : quad.vertex) {
+        low = glm::min(low, base_m[v]);
+        high = glm::max(high, base_m[v]);
+      }
+  return 0.5f * (low + high);
+}
+
+Figure make_figure(const Recipe& recipe, const BaseHuman& base) {
+  Figure figure;
+  figure.base = &base;
+  std::vector<TargetWeight> weights = macro_targets(recipe.macro, base);
+  for (const TargetWeight& target : recipe.targets)
+    for (const TargetWeight& half : expand_target(target, base)) weights.push_back(half);
+  figure.base_m = base.apply(weights);
+  for (const PartRecipe& part : recipe.parts) {
+    FittedPart fitted{base.load_proxy(part.proxy), part, {}};
+    settle_licence(fitted.proxy.licence);
+    fitted.position_m = fitted.proxy.fit(figure.base_m);
+    if (part.grow_m != 0) {
+      const auto normals = smooth_normals(fitted.proxy.quads, fitted.position_m);
+      for (std::size_t i = 0; i < normals.size(); ++i)
+        fitted.position_m[i] += part.grow_m * normals[i];
+    }
+    figure.parts.push_back(std::move(fitted));
+  }
+  for (const Bone& bone : base.bones())
+    figure.bone_head_m.push_back(BaseHuman::mean(figure.base_m, bone.head_vertices));
+  return figure;
+}
+
+void stand(Figure& figure) {
+  const auto motions = rest_pose_motions(*figure.base, figure.base_m, ArmHang{});
+  apply_motions(motions, figure.base->influence(), figure.base_m);
+  for (std::size_t i = 0; i < motions.size(); ++i) figure.bone_head_m[i] = motions[i].head_to_m;
+  for (FittedPart& part : figure.parts)
+    apply_motions(motions, part.proxy.influence, part.position_m);
+
+  // The lowest thing that is seen stands on the floor: shoes where there are any.
+  float floor_m = std::numeric_limits<float>::max();
+  for (const Quad& quad : figure.base->quads())
+    if (quad.group == 0)
+      for (const std::uint32_t v : quad.vertex) floor_m = std::min(floor_m, figure.base_m[v].y);
+  for (const FittedPart& part : figure.parts)
+    for (const Vec3 p : part.position_m) floor_m = std::min(floor_m, p.y);
+  const auto bone = [&](const char* name) { return figure.bone_head_m[figure.base->bone(name)]; };
+  const Vec3 ankles = 0.5f * (bone("foot.L") + bone("foot.R"));
+  const Vec3 toes = 0.5f * (bone("toe2-1.L") + bone("toe2-1.R"));
+  const Vec3 middle = glm::mix(ankles, toes, 0.4f);  // Half way from heel to tip.
+  const Vec3 shift{-middle.x, -floor_m, -middle.z};
+  for (Vec3& p : figure.base_m) p += shift;
+  for (Vec3& p : figure.bone_head_m) p += shift;
+  for (FittedPart& part : figure.parts)
+    for (Vec3& p : part.position_m) p += shift;
+}
+
+}  // namespace caryatid::bake

@@ -1,0 +1,36 @@
+#pragma once
+// From MakeHuman's A-pose to the H-Anim rest pose: arms down along the body, palms to the thighs,
+// legs straight and parallel, feet forward. Works on the base human's own bones and weights (they
+// were painted for them); the H-Anim skeleton is laid into the result.
+#include <span>
+#include <vector>
+
+#include "assets/bake/human/makehuman.h"
+
+namespace caryatid::bake {
+
+// How far the arms hang from the body. Angles from the vertical, outwards.
+struct ArmHang {
+  float upper_arm_rad = 0.12f;
+  float forearm_rad = 0.03f;
+  float clavicle_drop_rad = 0.05f;
+};
+
+// Rigid motion of every bone: p' = head_to + turn * (p - head_from).
+struct BoneMotion {
+  Quat turn{1, 0, 0, 0};
+  Vec3 head_from_m{0}, head_to_m{0};
+
+  Vec3 point(Vec3 p) const { return head_to_m + turn * (p - head_from_m); }
+};
+
+// `base_m`: positions of the base (19158) in MakeHuman's pose. One motion a bone.
+std::vector<BoneMotion> rest_pose_motions(const BaseHuman& base, std::span<const Vec3> base_m,
+                                          const ArmHang& hang);
+
+// Moves skinned positions by dual quaternions: limbs keep their volume where linear blending would
+// pinch shoulders and wrists.
+void apply_motions(std::span<const BoneMotion> motions, std::span<const Influence> influence,
+                   std::span<Vec3> inout_m);
+
+}  // namespace caryatid::bake
