@@ -1,0 +1,20 @@
+# Buttons without a board: the real backends linked with fakes of libgpiod and hidapi. Both APIs of
+# libgpiod are tested where CARYATID_GPIOD_V2_INCLUDE names a folder with the other one's gpiod.h.
+set(CARYATID_GPIOD_V2_INCLUDE "" CACHE PATH "Folder with the gpiod.h of libgpiod 2, for its tests")
+set(buttons_tests ${CMAKE_CURRENT_LIST_DIR}/platform/buttons)
+function(caryatid_gpio_unit version)
+  set(name unit_platform_buttons_gpiod_${version})
+  add_executable(${name} ${buttons_tests}/gpio_test.cpp ${buttons_tests}/fake_gpiod_${version}.cpp
+    ${CMAKE_SOURCE_DIR}/platform/buttons/gpio/gpio_buttons.cpp
+    ${CMAKE_SOURCE_DIR}/platform/buttons/gpiod_${version}/gpio_lines.cpp)
+  target_include_directories(${name} SYSTEM PRIVATE ${ARGN})
+  target_link_libraries(${name} PRIVATE caryatid_base caryatid_flags GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+endfunction()
+if(GPIOD_FOUND AND NOT CARYATID_HAS_GPIOD_V2)
+  caryatid_gpio_unit(v1)
+endif()
+if(CARYATID_HAS_GPIOD_V2 OR CARYATID_GPIOD_V2_INCLUDE)
+  caryatid_gpio_unit(v2 ${CARYATID_GPIOD_V2_INCLUDE})
+  target_compile_definitions(unit_platform_buttons_gpiod_v2 PRIVATE CARYATID_TEST_GPIOD_V2=1)
+endif()
