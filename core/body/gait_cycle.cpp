@@ -120,7 +120,6 @@ float GaitCycle::sway_m(float phase) const {
 
 float GaitCycle::contact_pitch(float phase) const {
   if (phase < kFootFlat) return pitch_.key[0] * square(1.0f - phase / kFootFlat);
-  if (runs()) return phase < 0.125f ? 0.0f : (curve(pitch_, phase) < 0 ? curve(pitch_, phase) : 0);
   const float rise = rise_rad_ * smooth((phase - 0.14f) / 0.15f);
   const float heel_off = phase > 0.25f ? square((phase - 0.25f) / (kPushOff - 0.25f)) : 0.0f;
   return pitch_.key[3] * heel_off - rise;
@@ -152,7 +151,7 @@ void GaitCycle::plan_way() {
   }
   if (runs()) {
     // Speed of the stance carries through the flight.
-    step_m_ = 0.5f * (way[2] - way[0]) / 0.25f;
+    step_m_ = 0.5f * (way[3] - way[0]) / 0.375f;
     start_m_ = way[0];
     wave_ = {};
     return;
@@ -183,7 +182,7 @@ float GaitCycle::forward_m(float step_phase) const {
 // Step 3: the standing leg carries the pelvis from recoil to anticipation. Around the extended
 // pose, where both feet can yield, an even curve leads from one leg over to the next.
 void GaitCycle::plan_height() {
-  height_.loaded = runs() ? 0.0f : 0.125f;
+  constexpr float kFall = -0.25f;  // Of a run at contact, per cycle, for the reference leg.
   height_.begin = pelvis_height_over(height_.yield);
   height_.begin_slope =
       (height_.begin - pelvis_height_over(height_.yield - kSlopeSpan)) / kSlopeSpan;
@@ -192,7 +191,7 @@ void GaitCycle::plan_height() {
   height_.end_slope = (pelvis_height_over(height_.loaded + kSlopeSpan) - height_.end) / kSlopeSpan;
   const float before = 0.5f - height_.yield;
   height_.middle_slope =
-      runs() ? height_.end_slope
+      runs() ? kFall * leg_.length_m() / kReferenceLeg
              : 0.5f * (height_.end - height_.begin) / (before + height_.loaded) +
                    0.5f * (pelvis_height_over(kSlopeSpan) - height_.middle) / kSlopeSpan;
 }

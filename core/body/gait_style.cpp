@@ -231,15 +231,16 @@ constexpr GaitStyle kStanding = {.stance_thigh_deg = {3, 3, 3, 3},
                                  .sway_m = 0.03f};
 
 // A jog at about 2.6 m/s, after capture 02_03 of the CMU database and the usual textbook ranges.
+// The keys are contact, loading, mid stance and toe-off.
 constexpr GaitStyle kRunning = {.list_deg = {0, 3, 1, -1},
                                 .rotation_deg = {5, 2, -4, -6},
-                                .stance_thigh_deg = {28, 18, -18, -12},
-                                .stance_knee_deg = {18, 40, 15, 40},
-                                .stance_ankle_deg = {3, 22, -20, -25},
-                                .swing_thigh_deg = {-15, 8, 42, 38},
-                                .swing_knee_deg = {45, 90, 80, 45},
-                                .swing_ankle_deg = {-15, -5, 0, 0},
-                                .cycle_s = 24.0f / 30.0f,
+                                .stance_thigh_deg = {26, 20, 3, -17},
+                                .stance_knee_deg = {20, 38, 31, 17},
+                                .stance_ankle_deg = {3, 18, 28, -12},
+                                .swing_thigh_deg = {-16, 6, 30, 36},
+                                .swing_knee_deg = {42, 85, 98, 66},
+                                .swing_ankle_deg = {-20, -8, 0, 0},
+                                .cycle_s = 23.0f / 30.0f,
                                 .trunk_pitch_deg = 7,
                                 .head_pitch_deg = 0,
                                 .arm_forward_deg = 20,
@@ -249,7 +250,7 @@ constexpr GaitStyle kRunning = {.list_deg = {0, 3, 1, -1},
                                 .shoulder_turn_deg = 6,
                                 .arm_out_deg = 10,
                                 .finger_curl_deg = 45,
-                                .contact = 0.30f,
+                                .contact = 0.38f,
                                 .step_width_m = 0.06f,
                                 .sway_m = 0.01f};
 

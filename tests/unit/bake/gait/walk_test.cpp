@@ -135,6 +135,26 @@ TEST(Walk, SameSeedSameStepsSameBits) {
   for (std::size_t i = 0; i < fa.size(); ++i) EXPECT_EQ(fa[i].value, fb[i].value);
 }
 
+TEST(Walk, RunningHasAFlightPhaseAndFirmFeet) {
+  const Skeleton s = body::upright_skeleton();
+  Walker walker(&s);
+  walker.set_style(body::running_style());
+  walker.walk_to({0, 1000});
+  record(walker, 180);
+  std::vector<BapFrame> frames;
+  int flying = 0;
+  for (int i = 0; i < 200; ++i) {
+    frames.push_back(record(walker, 1)[0]);
+    if (!walker.foot_planted(true) && !walker.foot_planted(false)) ++flying;
+  }
+  const WalkMeasures m = measure_walk(s, frames, kFps, outline_points(s));
+  EXPECT_GT(flying, 30);
+  EXPECT_LE(m.slide_m, 0.001f);
+  EXPECT_LE(m.below_floor_m, 0.001f);
+  EXPECT_GT(m.speed_mps, 2.0f);
+  EXPECT_LE(std::abs(m.maxima - m.steps), 2);
+}
+
 TEST(Walk, MoodsBlendOverThePlane) {
   for (int m = 0; m < body::kGaitMoodCount; ++m) {
     const Vec2 at = body::gait_mood_place(GaitMood(m));
