@@ -153,7 +153,7 @@ bake_key() {
 }
 
 bake_characters() {
-  if [ ! -d assets/characters ] || [ ! -x "$bin/caryatid-tool" ]; then
+  if [ ! -d assets/characters ] || ! "$bin/caryatid-tool" bake --help >/dev/null 2>&1; then
     say "bake: no characters in this tree, nothing to bake"
     return 0
   fi
@@ -184,7 +184,7 @@ run_kiosk() {
   [ -x "$bin/caryatid" ] || fail "$bin/caryatid was not built"
   case " ${args[*]-} " in
     *" --pack "* | *" --pack="*) ;;
-    *) args=(--pack "$packs/woman.pack" "${args[@]}") ;;
+    *) [ -f "$packs/woman.pack" ] && args=(--pack "$packs/woman.pack" "${args[@]}") ;;
   esac
   if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     say "the keys 1 to 9 are the buttons; Escape or closing the window ends the kiosk"

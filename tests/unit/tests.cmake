@@ -18,3 +18,11 @@ if(CARYATID_HAS_GPIOD_V2 OR CARYATID_GPIOD_V2_INCLUDE)
   caryatid_gpio_unit(v2 ${CARYATID_GPIOD_V2_INCLUDE})
   target_compile_definitions(unit_platform_buttons_gpiod_v2 PRIVATE CARYATID_TEST_GPIOD_V2=1)
 endif()
+if(HIDAPI_FOUND)
+  add_executable(unit_platform_buttons_hid ${buttons_tests}/hid_test.cpp
+    ${buttons_tests}/fake_hidapi.cpp ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_buttons.cpp
+    ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_report.cpp)
+  target_link_libraries(unit_platform_buttons_hid PRIVATE caryatid_base caryatid_flags
+    GTest::gtest_main)
+  add_test(NAME unit_platform_buttons_hid COMMAND unit_platform_buttons_hid)
+endif()
