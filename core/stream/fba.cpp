@@ -45,6 +45,8 @@ const char* describe(FbaFault fault) {
       return "more symbols than the decoder's memory holds; send intra planes more often";
     case FbaFault::output_full:
       return "the output buffer is full; give a larger one";
+    case FbaFault::rate_too_low:
+      return "does not fit into that rate even with the coarsest steps; allow more kbit/s";
     case FbaFault::bad_settings:
       return "a setting is out of range; see FbaSettings";
   }

@@ -31,6 +31,7 @@ enum class FbaFault : std::uint16_t {
   dct_coding,          // unsupported: the DCT mode.
   model_pool_full,     // out_of_capacity: give the coder more ModelNodes.
   output_full,         // out_of_capacity: the encoder's bytes are too few.
+  rate_too_low,        // out_of_capacity: the clip does not fit even with the coarsest steps.
   bad_settings,        // invalid_argument: a field of the settings is out of range.
 };
 
