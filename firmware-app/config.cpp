@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "firmware-app/config_devices.h"
+
 namespace caryatid::app {
 namespace {
 
@@ -14,9 +16,13 @@ class Reader {
 
   bool read(const toml::table& root, Config* out) {
     for (const auto& [key, node] : root) {
-      if (key.str() == "button") continue;
-      return refuse(node, "unknown key '" + std::string(key.str()) + "'", "known here: [[button]]");
+      if (key.str() == "button" || key.str() == "hid") continue;
+      return refuse(node, "unknown key '" + std::string(key.str()) + "'",
+                    "known here: [[button]], [[hid]]");
     }
+    DeviceRefusal refusal;
+    if (!read_hid_devices(root, out, &refusal))
+      return refuse(*refusal.where, refusal.what, refusal.cure);
     const toml::array* buttons = root["button"].as_array();
     if (buttons == nullptr || buttons->empty())
       return refuse(root, "there are no buttons", "add a [[button]] with name and feel");
@@ -35,10 +41,11 @@ class Reader {
   bool read_button(const toml::node& node, Config* out) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return refuse(node, "a button is not a table", "write [[button]]");
+    constexpr const char* kKnown[] = {"name", "feel", "gpio", "key", "code", "bit"};
     for (const auto& [key, value] : *table)
-      if (key.str() != "name" && key.str() != "feel")
+      if (std::find(std::begin(kKnown), std::end(kKnown), key.str()) == std::end(kKnown))
         return refuse(value, "unknown key '" + std::string(key.str()) + "'",
-                      "known here: name, feel");
+                      "known here: name, feel, gpio, key, code, bit");
     const std::string name = (*table)["name"].value_or(std::string());
     if (name.empty() || name.size() > 31 || name.find(' ') != std::string::npos)
       return refuse(node, "a button needs a name", "1 to 31 letters without a blank");
@@ -56,6 +63,10 @@ class Reader {
     button.feel = static_cast<emotion::Emotion>(found - names.begin());
     if (!out->programme.buttons.push(button))
       return refuse(node, "too many buttons", "at most " + std::to_string(kMaxButtons));
+    DeviceRefusal refusal;
+    const auto number = static_cast<std::uint16_t>(out->programme.buttons.size());
+    if (!read_button_devices(*table, number, out, &refusal))
+      return refuse(*refusal.where, refusal.what, refusal.cure);
     return true;
   }
 

@@ -4,11 +4,16 @@
 #include <string_view>
 
 #include "core/agent/programme.h"
+#include "platform/buttons/gpio.h"
+#include "platform/buttons/hid.h"
 
 namespace caryatid::app {
 
 struct Config {
   agent::Programme programme;
+  // The devices that press the buttons, by their numbers from 1.
+  FixedVector<platform::GpioLine, kMaxButtons> gpio;
+  FixedVector<platform::HidDevice, platform::kMaxHidDevices> hid;
 };
 
 // Parses the text of a kiosk.toml. False: `out_error` is one line, "NAME:LINE: what; cure".

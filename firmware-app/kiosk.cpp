@@ -183,6 +183,11 @@ bool Kiosk::start() {
     return false;
   }
   if (!open_screen() || !open_outputs()) return false;
+  // A recorded run must not depend on what is wired to this machine.
+  if (!options_.virtual_clock && !panel_.open(config_, &error)) {
+    complain(error);
+    return false;
+  }
   agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
   const std::string& name = options_.board;
   const lod::BoardCosts* costs = lod::find_board({name.data(), name.size()});
@@ -264,6 +269,7 @@ void Kiosk::poll_buttons(const Tick& tick) {
   events_.clear();
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
   if (script_) (void)script_->poll(now_us, events_);
+  panel_.poll(platform::monotonic_us(), events_);
   if (!display_) return;
   platform::DisplayEvents from_display;
   if (!display_->poll(now_us, from_display).ok()) return;

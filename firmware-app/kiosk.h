@@ -18,6 +18,7 @@
 #include "firmware-app/metrics.h"
 #include "firmware-app/options.h"
 #include "firmware-app/pack_file.h"
+#include "firmware-app/panel.h"
 #include "firmware-app/player.h"
 #include "firmware-app/png_writer.h"
 #include "platform/buttons/buttons.h"
@@ -83,6 +84,7 @@ class Kiosk {
   std::unique_ptr<platform::Display> display_;
   std::unique_ptr<platform::Renderer> renderer_;
   std::unique_ptr<platform::Buttons> script_;
+  Panel panel_;
   std::unique_ptr<lod::BudgetController> budget_;
   std::unique_ptr<lod::VirtualBoard> board_;
   FramesOut frames_out_;

@@ -26,3 +26,7 @@ if(HIDAPI_FOUND)
     GTest::gtest_main)
   add_test(NAME unit_platform_buttons_hid COMMAND unit_platform_buttons_hid)
 endif()
+add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/config_test.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/config.cpp ${CMAKE_SOURCE_DIR}/firmware-app/config_devices.cpp)
+target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
+add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
