@@ -6,7 +6,7 @@
 #include "assets/bake/face/movement.h"
 #include "assets/bake/face/smooth.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 // Smooth hat functions over the three feature points of a brow: each is 1 at its own and 0 at the
@@ -27,9 +27,9 @@ void add_brow_band(const Head& head, int side, float mark, Handles& handles) {
              outer = head.place_of(4, 5 + side);
   for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
     const Vec3 p = head.skin.position_m[v];
-    const float x = p.x * outward(side);
-    const float xi = inner.x * outward(side), xm = middle.x * outward(side),
-                xo = outer.x * outward(side);
+    const float x = head.lateral(p, side);
+    const float xi = head.lateral(inner, side), xm = head.lateral(middle, side),
+                xo = head.lateral(outer, side);
     if (x < xi - 0.002f || x > xo + 0.002f || p.z < outer.z - 0.015f) continue;
     const float t = x < xm ? (x - xi) / (xm - xi) : 1.0f + (x - xm) / (xo - xm);
     const float y = t < 1 ? glm::mix(inner.y, middle.y, t) : glm::mix(middle.y, outer.y, t - 1);
@@ -58,10 +58,10 @@ void add_still(const Head& head, int side, Handles& handles) {
   const float brow = head.place_of(4, 3 + side).y;
   const float top = brow + 0.042f;  // Frontalis ends above the hair line; the skin has slack there.
   const float lowest = head.place_of(3, 7 + 5 * side).y + 0.002f;
-  const float outer = head.place_of(4, 5 + side).x * outward(side) + 0.022f;
+  const float outer = head.lateral(head.place_of(4, 5 + side), side) + 0.022f;
   for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
     const Vec3 p = head.skin.position_m[v];
-    const float x = p.x * outward(side);
+    const float x = head.lateral(p, side);
     const bool free = !eye.inside[v] && rim_m[v] > 0.0025f && p.y < top && p.y > lowest &&
                       x < outer && x > -0.012f && p.z > eye.center_m.z - 0.022f;
     if (free || taken[v]) continue;
@@ -113,4 +113,4 @@ void add_brows(const Head& head, const ReachOf& reach, std::vector<Movement>& ou
   }
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -6,7 +6,7 @@
 
 #include "assets/bake/face/movement.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 using Weights = std::vector<float>;
@@ -69,4 +69,4 @@ void add_bumps(const Head& head, const ReachOf& reach, std::vector<Movement>& ou
   add(18, patch(head, 2, 10, 0.022f), {0, 1, 0.2f});
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

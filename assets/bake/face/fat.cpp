@@ -12,14 +12,14 @@
 namespace caryatid::bake {
 namespace {
 
-using namespace face;
+using namespace fat;
 
 constexpr float kLeastMove_m = 5e-6f;        // Below this nothing shows: a pixel is 100 times more.
 constexpr float kLeastNormalChange = 0.02f;  // About a degree.
 
 Range reach_of(const WorkingRanges& ranges, int fap) {
   const auto i = static_cast<std::size_t>(fap);
-  return {ranges.low[i] * caryatid::face::kReach, ranges.high[i] * caryatid::face::kReach};
+  return {ranges.low[i] * face::kReach, ranges.high[i] * face::kReach};
 }
 
 pack::Channel channel_of(const Movement& movement, std::size_t step) {

@@ -12,6 +12,6 @@ namespace caryatid::bake {
 // points, FAPU and joints. Every FAP 3..68 gets at least one channel each way it can go, so that
 // limits can be read off the channels; their ends lie at kReach times the working range.
 // Throws std::runtime_error (one line) when the character lacks what the tables need. 2-4 s.
-void build_fat(Character& character, const BaseHuman& base, const face::WorkingRanges& ranges);
+void build_fat(Character& character, const BaseHuman& base, const fat::WorkingRanges& ranges);
 
 }  // namespace caryatid::bake

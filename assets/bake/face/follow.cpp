@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 Carrier nearest(const Head& head, Vec3 p, const std::vector<std::uint32_t>& candidates) {
@@ -111,4 +111,4 @@ Vec3 followed(const Head& head, const Carrier& carrier, Vec3 position_m,
   return shift + turned - arm;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -6,7 +6,7 @@
 
 #include "assets/bake/face/head.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 // For each vertex of a part: the skin vertices that carry it, with weights that sum to 1.
 struct Carrier {
@@ -23,4 +23,4 @@ Carriers carriers_of_lash(const Head& head, const Mesh& mesh);
 Vec3 followed(const Head& head, const Carrier& carrier, Vec3 position_m,
               const std::vector<Vec3>& displacement);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

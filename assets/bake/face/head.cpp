@@ -6,7 +6,7 @@
 
 #include "core/body/hanim.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 // Vertices of hm08 from which the rings of lids and lips are traced; the right side is found by
@@ -196,6 +196,7 @@ Head make_head(const Character& character, const BaseHuman& base) {
   head.mandible = mandible_of(head.skin, base);
   head.facts = character.facts;
   find_points(character, head);
+  head.middle_x_m = head.place_of(2, 2).x;
   head.transforms = {.eye_separation_m = head.facts.eye_separation_m,
                      .iris_diameter_m = head.facts.iris_diameter_m,
                      .mouth_nose_m = head.facts.mouth_nose_m,
@@ -213,4 +214,4 @@ Head make_head(const Character& character, const BaseHuman& base) {
   return head;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

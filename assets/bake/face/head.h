@@ -13,7 +13,7 @@
 #include "assets/bake/model.h"
 #include "core/face/transforms.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 inline constexpr int kSides = 2;  // 0 is the figure's left (+X), 1 its right.
 
@@ -45,13 +45,17 @@ struct Head {
   std::vector<Vec3> normal;     // By skin vertex.
   std::vector<float> mandible;  // By skin vertex: share of the jaw in the base's rig, 0..1.
   pack::Character facts{};
-  caryatid::face::TransformGeometry transforms;
+  face::TransformGeometry transforms;
   std::array<Eye, kSides> eye;
   std::array<Lips, kSides> lips;
 
   // Feature points on the skin, by skin vertex, and all of them by place.
   std::map<std::pair<int, int>, std::uint32_t> point_vertex;
   std::map<std::pair<int, int>, Vec3> point_m;
+
+  float middle_x_m = 0;  // Where the face's mid-line lies.
+  // Distance from the mid-line, positive towards the side.
+  float lateral(Vec3 p, int side) const { return (p.x - middle_x_m) * outward(side); }
 
   // Both throw std::runtime_error naming the point when the character lacks it.
   std::uint32_t vertex_of(int group, int index) const;
@@ -61,4 +65,4 @@ struct Head {
 // Throws std::runtime_error when the head is not the base human's, or lacks what the FAT needs.
 Head make_head(const Character& character, const BaseHuman& base);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -5,44 +5,17 @@
 #include <cmath>
 
 #include "assets/bake/face/movement.h"
-#include "assets/bake/face/smooth.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
-// Share of the mandible's motion at every skin vertex: the rig's, but nothing on the lips, and
-// smooth between them and the chin.
+// Share of the mandible's motion at every skin vertex: the rig's, less what belongs to the lips.
 std::vector<float> jaw_weight(const Head& head) {
-  std::vector<std::uint32_t> given;
-  std::vector<float> value;
-  std::vector<bool> taken(head.skin.size(), false);
-  std::vector<std::uint32_t> contour;
-  const auto give = [&](std::uint32_t v, float w) {
-    if (taken[v]) return;
-    taken[v] = true;
-    given.push_back(v);
-    value.push_back(w);
-  };
-  for (const Lips& lips : head.lips) {
-    const std::size_t first = std::min(lips.upper_outer, lips.lower_outer);
-    const std::size_t last = std::max(lips.upper_inner, lips.lower_inner);
-    for (std::size_t r = first; r <= last; ++r)
-      for (const std::uint32_t v : lips.row[r]) {
-        give(v, 0.0f);
-        contour.push_back(v);
-      }
-  }
-  // FAPs 5 and 52 are exact: their points lie on these rows; the rest of the face has the rig's.
   const float scale = 1.0f / std::max(head.mandible[head.vertex_of(2, 1)], 0.5f);
-  const auto away = distance_m(head.skin, contour, 0.05f);
-  for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
-    const bool below_lip = head.skin.position_m[v].y < head.place_of(2, 3).y;
-    const float blend = below_lip ? 0.016f : 0.024f;
-    if (away[v] < blend) continue;
-    give(v, std::clamp(head.mandible[v] * scale, 0.0f, 1.0f));
-  }
-  std::vector<float> weight = SmoothFields(head.skin, given).solve(value);
-  for (float& w : weight) w = std::clamp(w, 0.0f, 1.0f);
+  const std::vector<float> lips = lip_share(head);
+  std::vector<float> weight(head.skin.size());
+  for (std::uint32_t v = 0; v < weight.size(); ++v)
+    weight[v] = std::clamp(head.mandible[v] * scale, 0.0f, 1.0f) * (1.0f - lips[v]);
   weight[head.vertex_of(2, 1)] = 1.0f;
   return weight;
 }
@@ -59,7 +32,7 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
   const std::vector<float> weight = jaw_weight(head);
   const Vec3 center = head.transforms.jaw_center_m;
   const auto drop = [&](float m) {
-    const float angle = caryatid::face::jaw_angle_rad(head.transforms, m);
+    const float angle = face::jaw_angle_rad(head.transforms, m);
     std::vector<Vec3> field(head.skin.size(), Vec3(0));
     for (std::uint32_t v = 0; v < field.size(); ++v) {
       // Half-way skin is carried by a smaller turn, not along the chord: cheeks do not cave in.
@@ -96,4 +69,4 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
   for (Movement& s : swings) out.push_back(std::move(s));
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

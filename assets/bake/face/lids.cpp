@@ -8,7 +8,7 @@
 #include "assets/bake/face/movement.h"
 #include "assets/bake/face/smooth.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 struct Polar {
@@ -125,4 +125,4 @@ void add_lids(const Head& head, const ReachOf& reach, std::vector<Movement>& out
   }
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

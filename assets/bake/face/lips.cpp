@@ -8,7 +8,7 @@
 #include "assets/bake/face/movement.h"
 #include "assets/bake/face/smooth.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 // A vertex of a contour: u runs along it, 0 mid-line, 1 corner, with the quarter point at 0.5.
@@ -50,7 +50,7 @@ class Mouth {
   // Shift in depth of a point of the lips that moves sideways by dx: along the dental arch.
   float along_arch(const Handle& h, float dx) const {
     const Vec3 p = head_.skin.position_m[h.vertex];
-    const float x = std::abs(p.x), moved = std::abs(p.x + dx);
+    const float x = std::abs(head_.lateral(p, 0)), moved = std::abs(head_.lateral(p, 0) + dx);
     return arch(moved) - arch(x);
   }
 
@@ -70,7 +70,7 @@ class Mouth {
     const std::size_t first = upper ? 0 : kLipCorner + 1;
     const std::size_t last = upper ? kLipCorner : kLipColumns - 1;
     const LipRow& row = lips.row[r];
-    const auto x = [&](std::uint32_t v) { return head_.skin.position_m[v].x * outward(side); };
+    const auto x = [&](std::uint32_t v) { return head_.lateral(head_.skin.position_m[v], side); };
     const float corner = x(row[kLipCorner]);
     // Left: 2.4 and 8.3 the corners, 2.6, 2.8, 8.5, 8.7 the quarter points; right one further.
     const int group = inner ? 2 : 8;
@@ -118,15 +118,15 @@ class Mouth {
     const auto away = distance_m(head_.skin, outer, 0.05f);
     const float nose = head_.place_of(9, 15).y - 0.001f;
     const float chin = head_.place_of(2, 10).y;
-    const float wing = std::abs(head_.place_of(9, 1).x);
+    const float wing = head_.lateral(head_.place_of(9, 1), 0);
+    const Vec3 corner = head_.place_of(2, 4);
     constexpr float kReach_m = 0.034f;
     for (std::uint32_t v = 0; v < head_.skin.size(); ++v) {
       if (taken[v]) continue;
       const Vec3 p = head_.skin.position_m[v];
-      const bool beneath_nose = p.y > nose && std::abs(p.x) < wing + 0.003f;
-      const bool inside = head_.normal[v].z < 0.2f && !grid[v] &&
-                          p.z < head_.place_of(2, 4).z - 0.002f &&
-                          std::abs(p.x) < std::abs(head_.place_of(2, 4).x) + 0.012f;
+      const bool beneath_nose = p.y > nose && std::abs(head_.lateral(p, 0)) < wing + 0.003f;
+      const bool inside = head_.normal[v].z < 0.2f && !grid[v] && p.z < corner.z - 0.002f &&
+                          std::abs(head_.lateral(p, 0)) < head_.lateral(corner, 0) + 0.012f;
       bool deep = false;
       for (const Lips& lips : head_.lips)
         for (const std::uint32_t g : lips.row.back()) deep |= g == v;
@@ -197,6 +197,13 @@ void add_vertical(const Head& head, const Mouth& mouth, const ReachOf& reach,
 
 }  // namespace
 
+std::vector<float> lip_share(const Head& head) {
+  std::vector<float> share;
+  for (const Vec3& v : Mouth(head).solve([](const Handle&) { return Vec3(1, 0, 0); }))
+    share.push_back(std::clamp(v.x, 0.0f, 1.0f));
+  return share;
+}
+
 void add_lips(const Head& head, const ReachOf& reach, std::vector<Movement>& out) {
   const Mouth mouth(head);
   add_vertical(head, mouth, reach, out);
@@ -223,4 +230,4 @@ void add_lips(const Head& head, const ReachOf& reach, std::vector<Movement>& out
       head, 17, reach(17), 1, [&](float m) { return push(mouth, true, m); }, out);
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

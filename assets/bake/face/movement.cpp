@@ -6,13 +6,13 @@
 
 #include "core/face/fap_table.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
-using caryatid::face::FapUnit;
+using face::FapUnit;
 
 float metres_per_unit(const Head& head, int fap) {
   const pack::Character& f = head.facts;
-  switch (caryatid::face::fap_info(fap).unit) {
+  switch (face::fap_info(fap).unit) {
     case FapUnit::mns:
       return f.mouth_nose_m / 1024.0f;
     case FapUnit::mw:
@@ -65,4 +65,4 @@ Vec3 along_surface(Vec3 normal, Vec3 direction) {
   return tangent / part;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -6,7 +6,7 @@
 
 #include "assets/bake/face/head.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 struct Movement {
   int fap = 0;
@@ -44,7 +44,10 @@ using ReachOf = std::function<Range(int fap)>;
 void add_lids(const Head& head, const ReachOf& reach, std::vector<Movement>& out);
 void add_brows(const Head& head, const ReachOf& reach, std::vector<Movement>& out);
 void add_lips(const Head& head, const ReachOf& reach, std::vector<Movement>& out);
+// How much of a vertex belongs to the lips: 1 on their contours, 0 where no lip FAP reaches. The
+// jaw takes the rest, so that jaw and lower lip together move the chin as one.
+std::vector<float> lip_share(const Head& head);
 void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out);
 void add_bumps(const Head& head, const ReachOf& reach, std::vector<Movement>& out);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

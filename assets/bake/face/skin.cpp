@@ -4,7 +4,7 @@
 #include <limits>
 #include <queue>
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 void add_unique(std::vector<std::uint32_t>& list, std::uint32_t value) {
@@ -109,4 +109,4 @@ std::vector<Vec3> normals(const Skin& skin, std::span<const Vec3> position_m) {
   return out;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

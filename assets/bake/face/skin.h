@@ -8,7 +8,7 @@
 
 #include "assets/bake/model.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 struct Skin {
   std::vector<Vec3> position_m;
@@ -42,4 +42,4 @@ std::vector<float> distance_m(const Skin& skin, std::span<const std::uint32_t> s
 // Area-weighted vertex normals of `position_m` (skin.size() long) over the skin's triangles.
 std::vector<Vec3> normals(const Skin& skin, std::span<const Vec3> position_m);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -120,4 +120,4 @@ std::vector<float> SmoothFields::solve(std::span<const float> values) const {
   return out;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -10,7 +10,7 @@
 
 #include "assets/bake/face/skin.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 class SmoothFields {
  public:
@@ -32,4 +32,4 @@ class SmoothFields {
   std::unique_ptr<System> system_;
 };
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

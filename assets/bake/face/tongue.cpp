@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 namespace {
 
 // Where a vertex lies on the tongue: along from root (0) to tip (1), across from -1 to 1.
@@ -79,4 +79,4 @@ std::vector<TongueMove> tongue_moves(const Character& character, const Head& hea
   return out;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

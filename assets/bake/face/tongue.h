@@ -5,7 +5,7 @@
 
 #include "assets/bake/face/movement.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 struct TongueMove {
   std::uint32_t object = 0;
@@ -17,4 +17,4 @@ struct TongueMove {
 std::vector<TongueMove> tongue_moves(const Character& character, const Head& head,
                                      const ReachOf& reach);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

@@ -5,13 +5,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 WorkingRanges read_working_ranges(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error(file.string() + ": cannot be read");
   WorkingRanges ranges;
-  std::array<bool, caryatid::face::kFapCount + 1> seen{};
+  std::array<bool, face::kFapCount + 1> seen{};
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.empty() || line[0] == '#' || line.starts_with("fap,")) continue;
@@ -19,8 +19,8 @@ WorkingRanges read_working_ranges(const std::filesystem::path& file) {
     std::size_t fap = 0;
     float low = 0, high = 0;
     char comma = 0;
-    if (!(fields >> fap >> comma >> low >> comma >> high) || fap < 3 ||
-        fap > caryatid::face::kFapCount || low > 0 || high < 0)
+    if (!(fields >> fap >> comma >> low >> comma >> high) || fap < 3 || fap > face::kFapCount ||
+        low > 0 || high < 0)
       throw std::runtime_error(file.string() + ":" + std::to_string(number) +
                                ": expected FAP (3..68), low <= 0, high >= 0, source");
     seen[fap] = true;
@@ -33,4 +33,4 @@ WorkingRanges read_working_ranges(const std::filesystem::path& file) {
   return ranges;
 }
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat

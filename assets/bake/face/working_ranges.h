@@ -6,16 +6,16 @@
 
 #include "core/face/fap.h"
 
-namespace caryatid::bake::face {
+namespace caryatid::bake::fat {
 
 struct WorkingRanges {
   // By FAP number, in the FAP's own unit; low <= 0 <= high.
-  std::array<float, caryatid::face::kFapCount + 1> low{};
-  std::array<float, caryatid::face::kFapCount + 1> high{};
+  std::array<float, face::kFapCount + 1> low{};
+  std::array<float, face::kFapCount + 1> high{};
 };
 
 // Columns fap,low,high,source; `#` lines are comments. Throws std::runtime_error naming file and
 // line when a line is wrong or a FAP 3..68 is missing.
 WorkingRanges read_working_ranges(const std::filesystem::path& file);
 
-}  // namespace caryatid::bake::face
+}  // namespace caryatid::bake::fat
