@@ -33,7 +33,7 @@ void add_brow_band(const Head& head, int side, float mark, Handles& handles) {
     if (x < xi - 0.002f || x > xo + 0.002f || p.z < outer.z - 0.015f) continue;
     const float t = x < xm ? (x - xi) / (xm - xi) : 1.0f + (x - xm) / (xo - xm);
     const float y = t < 1 ? glm::mix(inner.y, middle.y, t) : glm::mix(middle.y, outer.y, t - 1);
-    if (std::abs(p.y - y) > 0.0035f) continue;
+    if (p.y - y < -0.0045f || p.y - y > 0.007f) continue;
     handles.vertex.push_back(v);
     handles.t.push_back(mark < 0 ? mark : t);
   }
@@ -56,14 +56,14 @@ void add_still(const Head& head, int side, Handles& handles) {
   const Eye& eye = head.eye[static_cast<std::size_t>(side)];
   const auto rim_m = distance_m(head.skin, eye.rim, 0.02f);
   const float brow = head.place_of(4, 3 + side).y;
-  const float top = brow + 0.042f;  // Frontalis ends above the hair line; the skin has slack there.
+  const float top = brow + 0.055f;  // Frontalis ends above the hair line; the skin has slack there.
   const float lowest = head.place_of(3, 7 + 5 * side).y + 0.002f;
   const float outer = head.lateral(head.place_of(4, 5 + side), side) + 0.022f;
   for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
     const Vec3 p = head.skin.position_m[v];
     const float x = head.lateral(p, side);
     const bool free = !eye.inside[v] && rim_m[v] > 0.0025f && p.y < top && p.y > lowest &&
-                      x < outer && x > -0.012f && p.z > eye.center_m.z - 0.022f;
+                      x < outer && x > -0.022f && p.z > eye.center_m.z - 0.022f;
     if (free || taken[v]) continue;
     handles.vertex.push_back(v);
     handles.t.push_back(-1.0f);

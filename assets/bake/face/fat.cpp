@@ -16,6 +16,7 @@ using namespace fat;
 
 constexpr float kLeastMove_m = 5e-6f;        // Below this nothing shows: a pixel is 100 times more.
 constexpr float kLeastNormalChange = 0.02f;  // About a degree.
+constexpr float kMostNormalChange = 1.0f;    // The pack holds +-1.
 
 Range reach_of(const WorkingRanges& ranges, int fap) {
   const auto i = static_cast<std::size_t>(fap);
@@ -67,9 +68,7 @@ class Tables {
     std::vector<Vec3> normal_before = head_.normal;
     for (std::size_t k = 0; k < movement.frames.size(); ++k) {
       const std::vector<Vec3>& after = movement.frames[k];
-      std::vector<Vec3> place = head_.skin.position_m;
-      for (std::size_t v = 0; v < place.size(); ++v) place[v] += after[v];
-      std::vector<Vec3> normal_after = normals(head_.skin, place);
+      std::vector<Vec3> normal_after = normals_after(movement, k, normal_before);
       const std::size_t channel = add_channel(channel_of(movement, k));
       for (std::size_t o = 0; o < character_.objects.size(); ++o) {
         Object& object = character_.objects[o];
@@ -92,6 +91,28 @@ class Tables {
   }
 
  private:
+  // Shading at the end of an interval. Where FAPs of neighbouring points add up (lips, brows) their
+  // changes must too, so theirs is the slope at the start, drawn on; what turns far (jaw, lids)
+  // has the true one.
+  std::vector<Vec3> normals_after(const Movement& movement, std::size_t k,
+                                  const std::vector<Vec3>& normal_before) const {
+    const bool turns = movement.fap == 3 || (movement.fap >= 19 && movement.fap <= 22);
+    const std::vector<Vec3>& after = movement.frames[k];
+    const auto steps = static_cast<float>(movement.frames.size());
+    const float part = turns ? 1.0f : 0.15f / steps;
+    std::vector<Vec3> place = head_.skin.position_m;
+    for (std::size_t v = 0; v < place.size(); ++v) place[v] += part * after[v];
+    std::vector<Vec3> out = normals(head_.skin, place);
+    if (turns) return out;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+      Vec3 change = head_.normal[v] + (out[v] - head_.normal[v]) / part - normal_before[v];
+      const float length = glm::length(change);
+      if (length > kMostNormalChange) change *= kMostNormalChange / length;
+      out[v] = normal_before[v] + change;
+    }
+    return out;
+  }
+
   void move_skin(const Mesh& mesh, const std::vector<Vec3>& before, const std::vector<Vec3>& after,
                  const std::vector<Vec3>& normal_before, const std::vector<Vec3>& normal_after,
                  std::vector<Move>& moves) const {

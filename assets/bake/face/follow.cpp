@@ -7,24 +7,40 @@
 namespace caryatid::bake::fat {
 namespace {
 
-Carrier nearest(const Head& head, Vec3 p, const std::vector<std::uint32_t>& candidates) {
-  std::array<std::pair<float, std::uint32_t>, 4> best;
-  best.fill({1e9f, 0});
-  for (const std::uint32_t v : candidates) {
-    const float d = glm::length(head.skin.position_m[v] - p);
-    if (d >= best[3].first) continue;
-    best[3] = {d, v};
-    std::sort(best.begin(), best.end());
+// Barycentric coordinates of the point of a triangle closest to p (Ericson 2005, 5.1.5).
+Vec3 closest(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp),
+              d4 = glm::dot(ac, bp), d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const float vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {d3 / (d3 - d1), d1 / (d1 - d3), 0};
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {d6 / (d6 - d2), 0, d2 / (d2 - d6)};
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    const float t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0, 1 - t, t};
   }
-  Carrier carrier;
-  float sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    carrier.skin[i] = best[i].second;
-    const float d = best[i].first + 2e-4f;
-    sum += carrier.weight[i] = best[i].first < 1e8f ? 1.0f / (d * d) : 0.0f;
+  return Vec3(va, vb, vc) / (va + vb + vc);
+}
+
+Carrier beneath(const Head& head, Vec3 p) {
+  Carrier best;
+  float least = 1e9f;
+  for (const auto& t : head.skin.triangles) {
+    if (head.eye[0].inside[t[0]] || head.eye[1].inside[t[0]]) continue;
+    const Vec3 a = head.skin.position_m[t[0]], b = head.skin.position_m[t[1]],
+               c = head.skin.position_m[t[2]];
+    if (glm::length(a - p) > 0.04f) continue;  // No triangle of a face is that large.
+    const Vec3 w = closest(p, a, b, c);
+    const float d = glm::length(w.x * a + w.y * b + w.z * c - p);
+    if (d >= least) continue;
+    least = d;
+    best.skin = {t[0], t[1], t[2], t[0]};
+    best.weight = {w.x, w.y, w.z, 0};
   }
-  for (float& w : carrier.weight) w /= sum;
-  return carrier;
+  return best;
 }
 
 // Connected parts of a mesh: the label of each vertex. Vertices at one place count as one.
@@ -46,11 +62,8 @@ float angle_of(Vec3 p, Vec3 center) { return std::atan2(p.y - center.y, p.z - ce
 }  // namespace
 
 Carriers carriers_of_brow(const Head& head, const Mesh& mesh) {
-  std::vector<std::uint32_t> outside;
-  for (std::uint32_t v = 0; v < head.skin.size(); ++v)
-    if (!head.eye[0].inside[v] && !head.eye[1].inside[v]) outside.push_back(v);
   Carriers out;
-  for (const Vec3& p : mesh.position_m) out.push_back(nearest(head, p, outside));
+  for (const Vec3& p : mesh.position_m) out.push_back(beneath(head, p));
   return out;
 }
 
@@ -76,15 +89,18 @@ Carriers carriers_of_lash(const Head& head, const Mesh& mesh) {
   for (std::uint32_t i = 0; i < part.size(); ++i) {
     const Owner& of = owner[part[i]];
     const Eye& eye = head.eye[static_cast<std::size_t>(of.eye)];
-    // Beside it along X: tips stand far from the rim.
+    // Beside it as seen from the eyeball's centre: lashes fan out from there.
     const auto& rim = of.upper ? eye.upper : eye.lower;
-    const float x = mesh.position_m[i].x;
+    const auto bearing = [&](Vec3 p) {
+      return std::atan2(p.x - eye.center_m.x, p.z - eye.center_m.z);
+    };
+    const auto at = [&](std::size_t r) { return bearing(head.skin.position_m[rim[r]]); };
+    const float own = bearing(mesh.position_m[i]);
     std::size_t right = 0;
-    while (right < rim.size() && head.skin.position_m[rim[right]].x < x) ++right;
+    while (right < rim.size() && at(right) < own) ++right;
     const std::size_t a = right == 0 ? 0 : right - 1;
     const std::size_t b = std::min(right, rim.size() - 1);
-    const float xa = head.skin.position_m[rim[a]].x, xb = head.skin.position_m[rim[b]].x;
-    const float t = xb > xa ? std::clamp((x - xa) / (xb - xa), 0.0f, 1.0f) : 0.0f;
+    const float t = at(b) > at(a) ? std::clamp((own - at(a)) / (at(b) - at(a)), 0.0f, 1.0f) : 0.0f;
     Carrier carrier;
     carrier.skin = {rim[a], rim[b], rim[a], rim[a]};
     carrier.weight = {1.0f - t, t, 0.0f, 0.0f};

@@ -54,7 +54,7 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
 
   // Corrections: a lower lip that its own FAPs lower swings back with an open jaw.
   const Vec3 arm = head.place_of(2, 3) - center;
-  const float back = 0.7f * -arm.y / arm.z;  // Part along -z for one unit downwards.
+  const float back = -arm.y / arm.z;  // Part along -z for one unit downwards.
   std::vector<Movement> swings;
   for (const Movement& m : out) {
     const bool lower =

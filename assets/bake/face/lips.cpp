@@ -100,6 +100,24 @@ class Mouth {
       for (const bool upper : {true, false})
         for (const bool inner : {true, false}) add_contour(side, upper, inner);
     }
+    for (int side = 0; side < kSides; ++side) add_lining(side);
+  }
+
+  // Behind the corners the lining of the cheek is a tight fold: it goes with the inner contour.
+  void add_lining(int side) {
+    const Lips& lips = head_.lips[static_cast<std::size_t>(side)];
+    for (std::size_t c = kLipCorner - 3; c <= kLipCorner + 3; ++c) {
+      const std::size_t inner = c <= kLipCorner ? lips.upper_inner : lips.lower_inner;
+      const std::uint32_t front = lips.row[inner][c];
+      const auto found = std::find_if(handles_.begin(), handles_.end(),
+                                      [&](const Handle& h) { return h.vertex == front; });
+      if (found == handles_.end()) continue;
+      Handle handle = *found;
+      for (std::size_t r = inner + 1; r < lips.row.size(); ++r) {
+        handle.vertex = lips.row[r][c];
+        add(handle);
+      }
+    }
   }
 
   // The upper jaw's gums, the nose, and all that is far from the mouth.
@@ -126,10 +144,11 @@ class Mouth {
       const Vec3 p = head_.skin.position_m[v];
       const bool beneath_nose = p.y > nose && std::abs(head_.lateral(p, 0)) < wing + 0.003f;
       const bool inside = head_.normal[v].z < 0.2f && !grid[v] && p.z < corner.z - 0.002f &&
-                          std::abs(head_.lateral(p, 0)) < head_.lateral(corner, 0) + 0.012f;
-      bool deep = false;
+                          std::abs(head_.lateral(p, 0)) < head_.lateral(corner, 0) - 0.005f;
+      bool deep = false;  // Gums in front; at the sides the lining goes with the cheek.
       for (const Lips& lips : head_.lips)
-        for (const std::uint32_t g : lips.row.back()) deep |= g == v;
+        for (std::size_t c = 0; c < kLipColumns; ++c)
+          deep |= (c < 6 || c > 14) && lips.row.back()[c] == v;
       const bool free = away[v] < kReach_m && !beneath_nose && !inside && !deep && p.y > chin;
       if (!free) still_.push_back(v);
     }
@@ -147,7 +166,7 @@ float place(const Handle& h) { return h.u * outward(h.side); }
 // Vertical FAPs of one point of a contour; `raising_m` upwards.
 std::vector<Vec3> lift(const Mouth& mouth, bool upper, bool inner, float knot, float raising_m) {
   // A raised upper lip curls forward a little; a lowered lower lip rolls out over the gum.
-  const float forward = upper ? 0.08f : 0.12f;
+  const float forward = upper ? 0.08f : 0.03f;
   return mouth.solve([&](const Handle& h) {
     if (h.upper != upper || h.inner != inner || (h.u == 1.0f && std::abs(knot) < 1.0f))
       return Vec3(0);
@@ -159,8 +178,10 @@ std::vector<Vec3> lift(const Mouth& mouth, bool upper, bool inner, float knot, f
 std::vector<Vec3> move_corner(const Mouth& mouth, bool inner, int side, Vec3 by) {
   return mouth.solve([&](const Handle& h) {
     if (h.inner != inner || h.side != side) return Vec3(0);
-    const float w = h.u >= 1.0f ? 1.0f : cardinal(1.0f, h.u);
-    return Vec3(w * by.x, w * by.y, w * by.z + mouth.along_arch(h, w * by.x));
+    // Sideways the whole half of the lip stretches; only its corner has a FAP for that. Up and down
+    // the quarter point has its own.
+    const float across = h.u, up = h.u >= 1.0f ? 1.0f : cardinal(1.0f, h.u);
+    return Vec3(across * by.x, up * by.y, up * by.z + mouth.along_arch(h, across * by.x));
   });
 }
 
