@@ -5,6 +5,7 @@
 
 namespace caryatid::tool {
 
+void add_bake(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sheet(CLI::App& app);
 

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "Help of every subcommand");
   using namespace caryatid::tool;
+  add_bake(app);
   add_render(app);
   add_sheet(app);
   try {

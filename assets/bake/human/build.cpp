@@ -8,8 +8,10 @@
 #include "assets/bake/human/cover.h"
 #include "assets/bake/human/figure.h"
 #include "assets/bake/human/mesh_tools.h"
+#include "assets/bake/human/neutral.h"
 #include "assets/bake/human/skeleton.h"
 #include "assets/bake/texture/image.h"
+#include "core/body/hanim.h"
 
 namespace caryatid::bake {
 namespace {
@@ -51,10 +53,32 @@ Region quad_region(const Quad& quad, std::span<const Region> regions) {
   return regions[quad.vertex[0]];
 }
 
+// By vertex: whether it belongs to a connected part that lies in the lower half (of the teeth).
+std::vector<bool> lower_parts(std::span<const Quad> quads, std::span<const Vec3> position_m) {
+  const auto neighbours = edge_neighbours(quads, position_m.size());
+  std::vector<bool> out(position_m.size(), false), seen(position_m.size(), false);
+  float middle = 0.0f;
+  for (const Vec3 p : position_m) middle += p.y / static_cast<float>(position_m.size());
+  for (std::uint32_t start = 0; start < position_m.size(); ++start) {
+    if (seen[start]) continue;
+    std::vector<std::uint32_t> part{start};
+    seen[start] = true;
+    float height = 0.0f;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      height += position_m[part[i]].y;
+      for (const std::uint32_t n : neighbours[part[i]])
+        if (!seen[n]) seen[n] = true, part.push_back(n);
+    }
+    if (height / static_cast<float>(part.size()) < middle)
+      for (const std::uint32_t v : part) out[v] = true;
+  }
+  return out;
+}
+
 class Builder {
  public:
-  Builder(const Recipe& recipe, const BaseHuman& base)
-      : recipe_(recipe), base_(base), figure_(make_figure(recipe, base)) {
+  Builder(const Recipe& recipe, const BaseHuman& base, const std::vector<FeaturePointPlace>& places)
+      : recipe_(recipe), base_(base), places_(places), figure_(make_figure(recipe, base, places)) {
     stand(figure_);
     const Vec3 eyes[2] = {figure_.eye_center_m(0), figure_.eye_center_m(1)};
     out_.name = recipe.name;
@@ -67,7 +91,9 @@ class Builder {
     for (const FittedPart& part : figure_.parts) add_part(part);
     for (const auto& [fap, value] : recipe_.rest_face)
       out_.rest_face[static_cast<std::size_t>(fap)] = value;
-    check_bones();
+    limit_joints();
+    place_feature_points(places_, out_);
+    check_neutral(out_);
     return std::move(out_);
   }
 
@@ -176,28 +202,57 @@ class Builder {
         part.proxy.uvs,
         [&](std::uint32_t v) { return (*weights_)(part.proxy.influence[v], part.position_m[v]); },
         false};
+    if (kind == "teeth") {  // The lower ones go with the jaw.
+      const std::vector<bool> lower = lower_parts(part.proxy.quads, part.position_m);
+      const auto is_lower = [&](const Quad& quad) { return bool(lower[quad.vertex[0]]); };
+      add_object("upper_teeth", role, m,
+                 make_mesh(source, [&](const Quad& q) { return !is_lower(q); }));
+      Mesh jaw = make_mesh(source, is_lower);
+      for (Influence& influence : jaw.influence)
+        influence = {{joint_of(body::HanimJoint::temporomandibular)}, {1.0f}};
+      add_object("lower_teeth", role, m, std::move(jaw));
+      return;
+    }
+    add_object(kind == "clothes" ? name.substr(name.find('/') + 1) : kind, role, m,
+               make_mesh(source, [](const Quad&) { return true; }));
+  }
+
+  void add_object(std::string name, pack::ObjectRole role, std::uint32_t material, Mesh mesh) {
     Object object;
-    object.name = kind == "clothes" ? name.substr(name.find('/') + 1) : kind;
+    object.name = std::move(name);
     object.role = role;
-    object.material = m;
-    object.mesh = make_mesh(source, [](const Quad&) { return true; });
+    object.material = material;
+    object.mesh = std::move(mesh);
     out_.objects.push_back(std::move(object));
   }
 
-  void check_bones() const {
-    for (const Object& object : out_.objects) {
-      std::set<std::uint16_t> joints;
-      for (const Influence& influence : object.mesh.influence)
-        for (std::size_t k = 0; k < 4; ++k)
-          if (influence.weight[k] > 0) joints.insert(influence.joint[k]);
-      if (joints.size() > kMaxBonesPerDraw)
-        throw std::runtime_error(object.name + ": hangs on " + std::to_string(joints.size()) +
-                                 " joints, a draw holds " + std::to_string(kMaxBonesPerDraw));
-    }
+  std::uint16_t joint_of(body::HanimJoint joint) const {
+    for (std::uint16_t j = 0; j < out_.joints.size(); ++j)
+      if (out_.joints[j].hanim == body::index_of(joint)) return j;
+    throw std::runtime_error("the skeleton lacks a joint");
+  }
+
+  // A draw holds so many joints: the one that carries least gives its share to its parent.
+  void limit_joints() {
+    for (Object& object : out_.objects)
+      for (;;) {
+        std::map<std::uint16_t, float> share;
+        for (const Influence& influence : object.mesh.influence)
+          for (std::size_t k = 0; k < 4; ++k)
+            if (influence.weight[k] > 0) share[influence.joint[k]] += influence.weight[k];
+        if (share.size() <= kMaxBonesPerDraw) break;
+        const auto least = std::min_element(share.begin(), share.end(), [](auto& a, auto& b) {
+                             return a.second < b.second;
+                           })->first;
+        for (Influence& influence : object.mesh.influence)
+          for (std::uint16_t& joint : influence.joint)
+            if (joint == least) joint = out_.joints[least].parent;
+      }
   }
 
   const Recipe& recipe_;
   const BaseHuman& base_;
+  const std::vector<FeaturePointPlace>& places_;
   Figure figure_;
   Character out_;
   std::unique_ptr<WeightMap> weights_;
@@ -205,8 +260,9 @@ class Builder {
 
 }  // namespace
 
-Character build_character(const Recipe& recipe, const BaseHuman& base) {
-  return Builder(recipe, base).build();
+Character build_character(const Recipe& recipe, const BaseHuman& base,
+                          const std::vector<FeaturePointPlace>& places) {
+  return Builder(recipe, base, places).build();
 }
 
 }  // namespace caryatid::bake

@@ -1,5 +1,6 @@
 #pragma once
 // From a recipe to a character: what the rest of the bake starts from.
+#include "assets/bake/human/feature_points.h"
 #include "assets/bake/human/makehuman.h"
 #include "assets/bake/human/recipe.h"
 #include "assets/bake/model.h"
@@ -15,6 +16,7 @@ namespace caryatid::bake {
 // Joints: all of body::HanimJoint, in its order. Takes a few seconds.
 // Throws std::runtime_error (one line) when the recipe is wrong, breaks a rule of the MPEG-4
 // neutral face, or uses an asset whose licence does not allow it.
-Character build_character(const Recipe& recipe, const BaseHuman& base);
+Character build_character(const Recipe& recipe, const BaseHuman& base,
+                          const std::vector<FeaturePointPlace>& places);
 
 }  // namespace caryatid::bake

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "assets/bake/human/mesh_tools.h"
+#include "assets/bake/human/neutral.h"
 #include "assets/bake/human/repose.h"
 
 namespace caryatid::bake {
@@ -39,8 +40,10 @@ const FittedPart* Figure::part(std::string_view kind) const {
   return nullptr;
 }
 
-Vec3 Figure::eye_center_m(int side) const {
-  // The helper eyeball of the base is a sphere: the middle of its box is its centre.
+namespace {
+
+// The helper eyeball of the base is a sphere: its box has its centre and size.
+std::pair<Vec3, Vec3> eye_box(const BaseHuman* base, const std::vector<Vec3>& base_m, int side) {
   const std::uint16_t group = base->group(side == 0 ? "helper-l-eye" : "helper-r-eye");
   Vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
   for (const Quad& quad : base->quads())
@@ -49,16 +52,30 @@ Vec3 Figure::eye_center_m(int side) const {
         low = glm::min(low, base_m[v]);
         high = glm::max(high, base_m[v]);
       }
+  return {low, high};
+}
+
+}  // namespace
+
+Vec3 Figure::eye_center_m(int side) const {
+  const auto [low, high] = eye_box(base, base_m, side);
   return 0.5f * (low + high);
 }
 
-Figure make_figure(const Recipe& recipe, const BaseHuman& base) {
+float Figure::eye_diameter_m() const {
+  const auto [low, high] = eye_box(base, base_m, 0);
+  return high.x - low.x;
+}
+
+Figure make_figure(const Recipe& recipe, const BaseHuman& base,
+                   const std::vector<FeaturePointPlace>& places) {
   Figure figure;
   figure.base = &base;
   std::vector<TargetWeight> weights = macro_targets(recipe.macro, base);
   for (const TargetWeight& target : recipe.targets)
     for (const TargetWeight& half : expand_target(target, base)) weights.push_back(half);
   figure.base_m = base.apply(weights);
+  settle_neutral(base, places, kIrisToBall * figure.eye_diameter_m(), figure.base_m);
   for (const PartRecipe& part : recipe.parts) {
     FittedPart fitted{base.load_proxy(part.proxy), part, {}};
     settle_licence(fitted.proxy.licence);

@@ -4,6 +4,7 @@
 // morph -> neutral face -> fitted parts -> rest pose -> cover -> objects.
 #include <vector>
 
+#include "assets/bake/human/feature_points.h"
 #include "assets/bake/human/makehuman.h"
 #include "assets/bake/human/recipe.h"
 
@@ -25,10 +26,12 @@ struct Figure {
   const FittedPart* part(std::string_view kind) const;
   // Centre of the left (0) or right (1) eyeball.
   Vec3 eye_center_m(int side) const;
+  float eye_diameter_m() const;
 };
 
-// Macro and feature targets, then the parts fitted to the result.
-Figure make_figure(const Recipe& recipe, const BaseHuman& base);
+// Macro and feature targets, the neutral face, then the parts fitted to the result.
+Figure make_figure(const Recipe& recipe, const BaseHuman& base,
+                   const std::vector<FeaturePointPlace>& places);
 // To the H-Anim rest pose, soles of shoes on the floor, origin between the feet.
 void stand(Figure& figure);
 

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 
 #include <cstdlib>
 #include <stdexcept>
@@ -119,9 +120,12 @@ void BaseHuman::read_target_names() {
     std::string name = key;
     if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
     if (name.ends_with(kSuffix)) name.resize(name.size() - kSuffix.size());
-    target_index_.emplace(name, target_names_.size());
     target_names_.push_back(std::move(name));
   }
+  // The rows of the binary file stand in alphabetical order of the names, not in the list's own:
+  // only so do the shapes of eyes, mouth and feet move eyes, mouth and feet.
+  std::sort(target_names_.begin(), target_names_.end());
+  for (std::size_t i = 0; i < target_names_.size(); ++i) target_index_.emplace(target_names_[i], i);
 }
 
 std::uint32_t BaseHuman::bone(std::string_view name) const {

@@ -54,6 +54,22 @@ TEST_F(Package, ATargetIsLinear) {
     EXPECT_LT(glm::length(2.0f * (a[i] - rest[i]) - (b[i] - rest[i])), 1e-6f);
 }
 
+// Rows of the binary file and names go together: a shape moves the part that it names.
+TEST_F(Package, AShapeMovesWhatItNames) {
+  const auto center_y_m = [](const char* name) {
+    double sum = 0, height = 0;
+    const auto moved = human_->target_m(name);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      sum += double(glm::length(moved[i]));
+      height += double(glm::length(moved[i])) * double(human_->rest_m()[i].y);
+    }
+    return height / sum;
+  };
+  EXPECT_NEAR(center_y_m("expression/units/caucasian/eye-left-closure"), 0.73, 0.02);
+  EXPECT_NEAR(center_y_m("expression/units/caucasian/mouth-open"), 0.65, 0.03);
+  EXPECT_NEAR(center_y_m("armslegs/l-foot-scale-incr"), -0.79, 0.05);
+}
+
 TEST_F(Package, AProxyFollowsTheBase) {
   const Proxy eyes = human_->load_proxy("eyes/HighPolyEyes");
   std::vector<Vec3> moved(human_->rest_m().begin(), human_->rest_m().end());
