@@ -1,6 +1,7 @@
 # platform: the board's senses and muscles. One header per service, one folder per backend.
 find_package(PkgConfig REQUIRED)
 include(platform/buttons/room.cmake)
+include(platform/watchdog/room.cmake)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(X11 IMPORTED_TARGET x11)
