@@ -184,9 +184,13 @@ bool Kiosk::start() {
   }
   if (!open_screen() || !open_outputs()) return false;
   // A recorded run must not depend on what is wired to this machine.
-  if (!options_.virtual_clock && !panel_.open(config_, &error)) {
-    complain(error);
-    return false;
+  if (!options_.virtual_clock) {
+    if (!panel_.open(config_, &error)) {
+      complain(error);
+      return false;
+    }
+    if (!notifier_.open().ok()) complain("NOTIFY_SOCKET is no socket; running unsupervised");
+    (void)thermal_.open();  // A board without sensors counts as cool.
   }
   agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
   const std::string& name = options_.board;
@@ -219,6 +223,7 @@ bool Kiosk::run() {
                              : static_cast<double>(platform::monotonic_us() - began_us) * 1e-6;
     if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
     ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
+    watch(ok);
     last_s = now_s;
     ++frame_number_;
     report_.seconds = now_s + period_s;
@@ -229,11 +234,23 @@ bool Kiosk::run() {
       platform::sleep_until_us(due_us);
     }
   }
+  (void)notifier_.stopping();
   report_.frames = frame_number_;
   report_.allocations = allocations_since_seal();
   if (!frames_out_.finish()) complain(options_.frames_out + ": the contact sheet can't be written");
   metrics_.close();
   return ok;
+}
+
+// The supervisor's heartbeat and the board's temperature; a replay has neither.
+void Kiosk::watch(bool shown) {
+  if (options_.virtual_clock) return;
+  const std::int64_t now_us = platform::monotonic_us();
+  if (shown && !told_ready_) told_ready_ = notifier_.ready().ok();
+  (void)notifier_.beat(now_us, {.flipped = shown, .input_ran = true, .audio_moved = true});
+  if (now_us < next_heat_us_) return;
+  next_heat_us_ = now_us + 1'000'000;
+  (void)thermal_.read(&heat_);
 }
 
 bool Kiosk::frame(const Tick& tick) {
@@ -381,6 +398,7 @@ void Kiosk::measure(const Tick& tick) {
     sample_.time_us = static_cast<std::uint64_t>(now_us);
     sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us);
     sample_.drawn = work;
+    sample_.thermal = static_cast<lod::ThermalLevel>(heat_.heat);
   }
   const double period_us = 1e6 / options_.target_fps;
   FrameMetrics m;

@@ -24,6 +24,8 @@
 #include "platform/buttons/buttons.h"
 #include "platform/display/display.h"
 #include "platform/render/render.h"
+#include "platform/thermal/thermal.h"
+#include "platform/watchdog/notify.h"
 
 namespace caryatid::app {
 
@@ -70,6 +72,7 @@ class Kiosk {
   void choose_levels(const Tick& tick);
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
+  void watch(bool shown);
   void fix_levels();
   lod::SceneNeeds needs();
 
@@ -85,6 +88,11 @@ class Kiosk {
   std::unique_ptr<platform::Renderer> renderer_;
   std::unique_ptr<platform::Buttons> script_;
   Panel panel_;
+  platform::Notifier notifier_;
+  platform::Thermal thermal_;
+  platform::ThermalReading heat_;
+  std::int64_t next_heat_us_ = 0;
+  bool told_ready_ = false;
   std::unique_ptr<lod::BudgetController> budget_;
   std::unique_ptr<lod::VirtualBoard> board_;
   FramesOut frames_out_;

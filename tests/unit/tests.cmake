@@ -33,3 +33,9 @@ add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
 foreach(room watchdog thermal)
   caryatid_unit(platform/${room} caryatid_board)
 endforeach()
+# The service's hardening must not decay: systemd rates its exposure from 0 (safe) to 10.
+find_program(SYSTEMD_ANALYZE systemd-analyze)
+if(SYSTEMD_ANALYZE)
+  add_test(NAME deploy_hardening COMMAND ${SYSTEMD_ANALYZE} security --offline=true --threshold=15
+    --no-pager ${CMAKE_SOURCE_DIR}/firmware-app/deploy/caryatid.service)
+endif()
