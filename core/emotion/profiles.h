@@ -12,16 +12,20 @@ namespace caryatid::emotion {
 struct ProfileEntry {
   std::uint8_t fap;
   float mean;
-  float deviation;  // Of the measured sample; for qualitative FAPs our own margin.
-  bool measured;    // Table 8-4; otherwise table 8-3 with an amplitude of ours.
+  float deviation;    // Of the measured sample; for qualitative FAPs our own margin.
+  bool measured;      // Table 8-4; otherwise table 8-3 with an amplitude of ours.
+  float lean = 1.0f;  // Shown at the mean + so many deviations away from zero, -1..1.
 };
 
 // FAPs of one emotion, ascending. Empty for calm.
 std::span<const ProfileEntry> profile(Emotion e);
 
-// The face of one emotion at full strength: mean + one deviation (away from zero), which is where
-// observers name the pictures reliably; a weight of 0.5..0.7 shows the mean. FAPs that the profile
-// leaves out and that follow from others (outer lips, quarter points) are filled in.
+// What the face at full strength shows of an entry: within mean +- one deviation.
+float shown_value(const ProfileEntry& entry);
+
+// The face of one emotion at full strength, at the place within the measured spread where it is
+// read best. FAPs that the profile leaves out and that follow from others (outer lips, quarter
+// points) are filled in.
 face::FapFrame peak_face(Emotion e);
 
 // The sum of all emotions' peak faces by weight. O(emotions up * 68).

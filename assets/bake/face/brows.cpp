@@ -1,115 +1,107 @@
 // Brows: frontalis raises them (its middle part the inner ends), corrugator and procerus lower and
-// draw them together. The skin slides on the skull; forehead and upper lid give way.
+// draw them together. The skin slides on the skull; the forehead above gives way up to the hair
+// line, the lid below up to its rim. Weights are products of smooth steps along and across the
+// brow: unlike a biharmonic field they never swing back, so the forehead cannot fold.
 #include <algorithm>
 #include <cmath>
 
 #include "assets/bake/face/movement.h"
-#include "assets/bake/face/smooth.h"
 
 namespace caryatid::bake::fat {
 namespace {
 
+float step(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
 // Smooth hat functions over the three feature points of a brow: each is 1 at its own and 0 at the
 // others, and they add up to 1 along the brow. t is 0 at the inner, 1 middle, 2 outer end.
 float hat(int which, float t) {
-  const float d = std::min(std::abs(std::clamp(t, 0.0f, 2.0f) - static_cast<float>(which)), 1.0f);
-  return 1.0f - d * d * (3.0f - 2.0f * d);
+  return step(1.0f - std::abs(std::clamp(t, 0.0f, 2.0f) - static_cast<float>(which)));
 }
 
-struct Handles {
-  std::vector<std::uint32_t> vertex;
-  std::vector<float> t;  // Along the own brow; -1: belongs to the other brow or must stay.
+// Where a skin vertex lies with respect to one brow.
+struct Place {
+  float along = 0;  // 0 inner end, 1 middle, 2 outer end; beyond them clamped by hat().
+  float share = 0;  // How much of the brow's motion it takes, 1 on the brow.
 };
 
-// The band of skin under the brow's hairs.
-void add_brow_band(const Head& head, int side, float mark, Handles& handles) {
+std::vector<Place> places(const Head& head, int side) {
   const Vec3 inner = head.place_of(4, 1 + side), middle = head.place_of(4, 3 + side),
              outer = head.place_of(4, 5 + side);
-  for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
-    const Vec3 p = head.skin.position_m[v];
-    const float x = head.lateral(p, side);
-    const float xi = head.lateral(inner, side), xm = head.lateral(middle, side),
-                xo = head.lateral(outer, side);
-    if (x < xi - 0.002f || x > xo + 0.002f || p.z < outer.z - 0.015f) continue;
-    const float t = x < xm ? (x - xi) / (xm - xi) : 1.0f + (x - xm) / (xo - xm);
-    const float y = t < 1 ? glm::mix(inner.y, middle.y, t) : glm::mix(middle.y, outer.y, t - 1);
-    if (p.y - y < -0.0045f || p.y - y > 0.007f) continue;
-    handles.vertex.push_back(v);
-    handles.t.push_back(mark < 0 ? mark : t);
-  }
-  // The points themselves are exact.
-  for (int i = 0; i < 3; ++i) {
-    const std::uint32_t v = head.vertex_of(4, 1 + 2 * i + side);
-    const auto found = std::find(handles.vertex.begin(), handles.vertex.end(), v);
-    if (found == handles.vertex.end()) handles.vertex.push_back(v), handles.t.push_back(0);
-    const auto at = static_cast<std::size_t>(
-        (found == handles.vertex.end() ? handles.vertex.size() - 1
-                                       : static_cast<std::size_t>(found - handles.vertex.begin())));
-    handles.t[at] = mark < 0 ? mark : static_cast<float>(i);
-  }
-}
-
-// What a brow does not take along: lids near the rim, nose, the back of the head, cheeks.
-void add_still(const Head& head, int side, Handles& handles) {
-  std::vector<bool> taken(head.skin.size(), false);
-  for (const std::uint32_t v : handles.vertex) taken[v] = true;
+  const float xi = head.lateral(inner, side), xm = head.lateral(middle, side),
+              xo = head.lateral(outer, side);
   const Eye& eye = head.eye[static_cast<std::size_t>(side)];
-  const auto rim_m = distance_m(head.skin, eye.rim, 0.02f);
-  const float brow = head.place_of(4, 3 + side).y;
-  const float top = brow + 0.055f;  // Frontalis ends above the hair line; the skin has slack there.
-  const float lowest = head.place_of(3, 7 + 5 * side).y + 0.002f;
-  const float outer = head.lateral(head.place_of(4, 5 + side), side) + 0.022f;
-  for (std::uint32_t v = 0; v < head.skin.size(); ++v) {
+  // The brow's own thickness moves as one; frontalis ends beneath the hair line.
+  constexpr float kUnder_m = 0.0045f, kOver_m = 0.007f, kForehead_m = 0.050f, kTemple_m = 0.022f;
+  constexpr float kStillRim_m = 0.002f, kLid_m = 0.009f, kNose_m = 0.020f;
+  const auto rim_m = distance_m(head.skin, eye.rim, 0.03f);
+  std::vector<Place> out(head.skin.size());
+  for (std::uint32_t v = 0; v < out.size(); ++v) {
     const Vec3 p = head.skin.position_m[v];
     const float x = head.lateral(p, side);
-    const bool free = !eye.inside[v] && rim_m[v] > 0.0025f && p.y < top && p.y > lowest &&
-                      x < outer && x > -0.022f && p.z > eye.center_m.z - 0.022f;
-    if (free || taken[v]) continue;
-    handles.vertex.push_back(v);
-    handles.t.push_back(-1.0f);
+    if (eye.inside[v] || p.z < eye.center_m.z - 0.025f || head.normal[v].z < -0.2f) continue;
+    const float t = x < xm ? (x - xi) / (xm - xi) : 1.0f + (x - xm) / (xo - xm);
+    const float line = t < 1.0f ? glm::mix(inner.y, middle.y, std::max(t, 0.0f))
+                                : glm::mix(middle.y, outer.y, std::min(t, 2.0f) - 1.0f);
+    const float above = p.y - line;
+    // Both brows share the skin between them; behind the other one's end nothing moves.
+    float share = step(0.5f + 0.5f * x / (xi - 0.001f)) * step(1.0f - (x - xo) / kTemple_m);
+    if (above > kOver_m) share *= step(1.0f - (above - kOver_m) / (kForehead_m - kOver_m));
+    if (above < -kUnder_m) {
+      share *= step(1.0f - (-above - kUnder_m) / kNose_m);
+      if (std::isfinite(rim_m[v])) share *= step((rim_m[v] - kStillRim_m) / kLid_m);
+    }
+    out[v] = {t, share};
   }
+  // The feature points are exact.
+  for (int i = 0; i < 3; ++i)
+    out[head.vertex_of(4, 1 + 2 * i + side)] = {static_cast<float>(i), 1.0f};
+  return out;
 }
 
 }  // namespace
 
 void add_brows(const Head& head, const ReachOf& reach, std::vector<Movement>& out) {
   for (int side = 0; side < kSides; ++side) {
-    Handles handles;
-    add_brow_band(head, side, 0.0f, handles);
-    add_brow_band(head, 1 - side, -1.0f, handles);
-    add_still(head, side, handles);
-    const SmoothFields fields(head.skin, handles.vertex);
-    const auto solve = [&](const std::function<Vec3(float t, std::uint32_t v)>& at) {
-      std::vector<Vec3> value(handles.vertex.size(), Vec3(0));
-      for (std::size_t i = 0; i < value.size(); ++i)
-        if (handles.t[i] >= 0.0f) value[i] = at(handles.t[i], handles.vertex[i]);
-      return fields.solve(value);
-    };
-    const auto scaled = [](std::vector<Vec3> field, float by) {
-      for (Vec3& d : field) d *= by;
-      return field;
+    const std::vector<Place> place = places(head, side);
+    const auto field = [&](const std::function<Vec3(const Place&, Vec3 normal)>& at, float m) {
+      std::vector<Vec3> moved(place.size(), Vec3(0));
+      for (std::size_t v = 0; v < moved.size(); ++v)
+        if (place[v].share > 0.0f) moved[v] = m * place[v].share * at(place[v], head.normal[v]);
+      return moved;
     };
     for (int which = 0; which < 3; ++which) {
-      // Raised skin lies flat on the bone; lowered skin bunches over the ridge of the orbit.
-      const auto up = solve([&](float t, std::uint32_t v) {
-        return hat(which, t) * along_surface(head.normal[v], {0, 1, 0});
-      });
-      const auto down = solve([&](float t, std::uint32_t v) {
-        return hat(which, t) *
-               (along_surface(head.normal[v], {0, 1, 0}) - 0.25f * head.normal[v] * Vec3(1, 0, 1));
-      });
       const int fap = 31 + 2 * which + side;
       add_movements(
-          head, fap, reach(fap), 1, [&](float m) { return scaled(m < 0 ? down : up, m); }, out);
+          head, fap, reach(fap), 1,
+          [&](float m) {
+            return field(
+                [&](const Place& at, Vec3 normal) {
+                  // Raised skin lies flat on the bone; lowered skin bunches over the
+                  // ridge of the orbit and hangs before the lid.
+                  const Vec3 bulge = m < 0 ? 0.35f * normal * Vec3(1, 0, 1) : Vec3(0);
+                  return hat(which, at.along) * (along_surface(normal, {0, 1, 0}) - bulge);
+                },
+                m);
+          },
+          out);
     }
     // Corrugator: the inner end goes farthest, skin piles up between the brows.
     const Vec3 medial{-outward(side), 0, 0};
-    const auto squeeze = solve([&](float t, std::uint32_t v) {
-      const float share = t < 1 ? 1.0f - 0.45f * t : 0.55f * hat(0, t - 1.0f);
-      return share * (along_surface(head.normal[v], medial) + Vec3(0, 0, 0.15f));
-    });
     add_movements(
-        head, 37 + side, reach(37 + side), 1, [&](float m) { return scaled(squeeze, m); }, out);
+        head, 37 + side, reach(37 + side), 1,
+        [&](float m) {
+          return field(
+              [&](const Place& at, Vec3 normal) {
+                const float share = at.along < 1.0f ? 1.0f - 0.45f * std::max(at.along, 0.0f)
+                                                    : 0.55f * hat(1, at.along);
+                return share * (along_surface(normal, medial) + Vec3(0, 0, 0.15f));
+              },
+              m);
+        },
+        out);
   }
 }
 
