@@ -93,7 +93,7 @@ class Builder {
       out_.rest_face[static_cast<std::size_t>(fap)] = value;
     limit_joints();
     place_feature_points(places_, out_);
-    check_neutral(out_);
+    check_neutral(out_, kIrisToBall * figure_.eye_diameter_m());
     return std::move(out_);
   }
 
@@ -211,6 +211,17 @@ class Builder {
       for (Influence& influence : jaw.influence)
         influence = {{joint_of(body::HanimJoint::temporomandibular)}, {1.0f}};
       add_object("lower_teeth", role, m, std::move(jaw));
+      return;
+    }
+    if (kind == "eyes") {  // The clear cap over the iris has its own corner of the texture.
+      const auto is_cornea = [&](const Quad& quad) {
+        const Vec2 uv = part.proxy.uvs[quad.uv[0]];
+        return uv.x > 0.85f && uv.y < 0.15f;
+      };
+      add_object("eyes", role, m, make_mesh(source, [&](const Quad& q) { return !is_cornea(q); }));
+      const std::uint32_t clear =
+          add_material(material, pack::kCornea, pack::kNoTexture, 1.0f, 120.0f);
+      add_object("corneas", role, clear, make_mesh(source, is_cornea));
       return;
     }
     add_object(kind == "clothes" ? name.substr(name.find('/') + 1) : kind, role, m,

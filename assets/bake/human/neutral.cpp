@@ -149,7 +149,7 @@ void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>&
   }
 }
 
-void check_neutral(const Character& c) {
+void check_neutral(const Character& c, float iris_diameter_m) {
   const auto at = [&](int group, int index) {
     for (const FeaturePoint& f : c.feature_points)
       if (f.group == group && f.index == index) return f.position_m;
@@ -167,7 +167,7 @@ void check_neutral(const Character& c) {
   broken("corners level (2.4 - 2.5)", at(2, 4).y - at(2, 5).y, 0.0005f);
   broken("lip line at corner height", at(2, 2).y - at(2, 4).y, 0.004f);
   broken("lid openings alike", (at(3, 1).y - at(3, 3).y) - (at(3, 2).y - at(3, 4).y), 0.0005f);
-  broken("lids tangent to the iris", c.facts.iris_diameter_m - 0.0118f, 0.0015f);
+  broken("lids tangent to the iris", c.facts.iris_diameter_m - iris_diameter_m, 0.0006f);
   broken("eyes level", at(3, 5).y - at(3, 6).y, 0.0005f);
 }
 

@@ -18,6 +18,6 @@ void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>&
 
 // Measures the rules on a finished character. Throws std::runtime_error (one line) naming the rule
 // that is broken and by how much.
-void check_neutral(const Character& character);
+void check_neutral(const Character& character, float iris_diameter_m);
 
 }  // namespace caryatid::bake
