@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "assets/bake/face/fat.h"
 #include "assets/bake/human/build.h"
 #include "assets/bake/pack/writer.h"
 #include "assets/tool/commands.h"
@@ -76,6 +77,10 @@ void bake_character(const BakeArgs& a) {
   if (a.licences)
     for (const bake::Licence& l : character.licences)
       std::printf("%s: %s, %s\n", l.source.c_str(), l.licence.c_str(), l.author.c_str());
+  progress.step("face animation tables");
+  const auto ranges =
+      bake::fat::read_working_ranges(recipe_file.parent_path() / "fap_working_ranges.csv");
+  bake::build_fat(character, base, ranges);
   progress.step("simplify and pack");
   bake::PackReport report;
   const std::vector<std::byte> bytes = bake::write_pack(character, {}, &report);
