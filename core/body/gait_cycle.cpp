@@ -161,9 +161,13 @@ void GaitCycle::plan_way() {
   const Vec2 lever = leg_.foot.ankle - leg_.foot.metatarsal;
   const float needed = hip + swing_ankle(0.5f).y;
   const float lever_m = root(square(lever.x) + square(lever.y));
-  float pitch = atan2_of(lever.y, -lever.x) - asin_of((needed - leg_.foot.metatarsal.y) / lever_m);
-  if (pitch > 0.0f) pitch = 0.0f;
+  const float pitch =
+      atan2_of(lever.y, -lever.x) - asin_of((needed - leg_.foot.metatarsal.y) / lever_m);
   way[4] = pelvis_ahead(0.5f, pitch);
+  if (pitch > 0.0f) {  // Too long even on a flat foot: the hip moves on until the leg fits.
+    way[4] = root(square(reach_m(knee(0.5f))) - square(hip - leg_.foot.ankle.y)) -
+             leg_.hip_half_width_m * sin_of(rotation(0.5f));
+  }
   start_m_ = way[0];
   step_m_ = way[4] - way[0];
   std::array<float, 4> d{};

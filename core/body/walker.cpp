@@ -17,6 +17,7 @@ constexpr float kArrivedM = 0.10f;
 constexpr float kAlignedRad = 3.0f * kDegree;
 constexpr float kStraightest = 0.8f * kDegree;  // Knee flexion that the height always leaves.
 constexpr float kClearanceM = 0.016f;           // Of the sole in mid swing.
+constexpr float kBrushM = 0.003f;
 constexpr float kLegReferenceM = 0.927f;
 
 float smooth(float x) {
@@ -294,7 +295,7 @@ FootTarget Walker::swing_foot(const GaitCycle& cycle, const LowerBody& body, boo
   FootTarget target;
   target.ankle_m = hip_position(*skeleton_, body, left) + rotation_y(body.heading_rad) * local;
   if (landing) {  // Comes to rest over its place before it touches.
-    const float over = smooth((s - 0.86f) / 0.14f);
+    const float over = smooth((s - 0.93f) / 0.055f);
     target.ankle_m.x += (landing->x - target.ankle_m.x) * over;
     target.ankle_m.z += (landing->z - target.ankle_m.z) * over;
   }
@@ -307,7 +308,11 @@ FootTarget Walker::swing_foot(const GaitCycle& cycle, const LowerBody& body, boo
   // Clear the floor: a rounded maximum of where the foot is and where it may be.
   const float low = lowest_point(shape_.foot, {0.0f, target.ankle_m.y}, target.pitch_rad,
                                  target.toe_extension_rad);
-  const float room = kClearanceM * smooth(s / 0.12f) * smooth((1.0f - s) / 0.12f);
+  // Towards the landing it sinks, but does not brush the floor before it has come to rest above it.
+  const float sink = clamped((1.0f - s) / 0.35f, 0.0f, 1.0f);
+  const float brush = kBrushM * clamped((1.0f - s) / 0.03f, 0.0f, 1.0f);
+  const float above = kClearanceM * sink > brush ? kClearanceM * sink : brush;
+  const float room = above * smooth(s / 0.12f);
   const float gap = room - low;
   const float round = 0.25f * room;
   target.ankle_m.y += 0.5f * (gap + std::sqrt(gap * gap + round * round));
