@@ -6,6 +6,7 @@
 namespace caryatid::tool {
 
 void add_bake(CLI::App& app);
+void add_fba(CLI::App& app);
 void add_gait(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sheet(CLI::App& app);

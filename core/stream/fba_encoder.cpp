@@ -22,6 +22,19 @@ std::int32_t whole(float value) {
   return static_cast<std::int32_t>(std::lround(std::clamp(value, -kLargestValue, kLargestValue)));
 }
 
+bool valid(const FbaSettings& settings) {
+  bool good = settings.fap_quant <= kLargestQuantiser &&
+              settings.bap_quant_index <= kLargestQuantiser && settings.rate.hertz() > 0.0 &&
+              settings.rate.sixteenths < 16 && settings.dead_zone >= 0.5f &&
+              settings.dead_zone < 1.0f;
+  for (const RangeCodes& range : settings.range)
+    for (const int code : {range.intra_high, range.intra_low, range.inter_high, range.inter_low})
+      good = good && code <= kMaxRangeCode;
+  // Deployed decoders take zeros there for ranges that were never set.
+  const RangeCodes& probe = settings.range[fap_slot(4)];
+  return good && (probe.intra_high != 0 || probe.intra_low != 0);
+}
+
 FapMaskType group_type(const FbaSettings& settings, int group) {
   const face::FapGroup faps = face::fap_group(group);
   int listed = 0;
@@ -46,26 +59,29 @@ std::int32_t choose_level(const FbaSettings& settings, std::size_t slot, std::in
 
 FbaEncoder::FbaEncoder(const FbaSettings& settings, std::span<ModelNode> nodes)
     : settings_(settings), pool_(nodes) {
-  coding_.fap_mask = settings.fap_mask;
-  coding_.bap_mask = settings.bap_mask;
-  coding_.fap_quant = settings.fap_quant;
-  coding_.bap_quant_index = settings.bap_quant_index;
+  adopt();
+}
+
+// What the stream will know; the objects count as new.
+void FbaEncoder::adopt() {
+  coding_.fap_mask = settings_.fap_mask;
+  coding_.bap_mask = settings_.bap_mask;
+  coding_.fap_quant = settings_.fap_quant;
+  coding_.bap_quant_index = settings_.bap_quant_index;
+  coding_.face_known = coding_.body_known = false;
 }
 
 Status FbaEncoder::begin(BitWriter* out) const {
-  bool good = settings_.fap_quant <= kLargestQuantiser &&
-              settings_.bap_quant_index <= kLargestQuantiser && settings_.rate.hertz() > 0.0 &&
-              settings_.rate.sixteenths < 16 && settings_.dead_zone >= 0.5f &&
-              settings_.dead_zone < 1.0f;
-  for (const RangeCodes& range : settings_.range)
-    for (const int code : {range.intra_high, range.intra_low, range.inter_high, range.inter_low})
-      good = good && code <= kMaxRangeCode;
-  // Deployed decoders take zeros there for ranges that were never set.
-  const RangeCodes& probe = settings_.range[fap_slot(4)];
-  good = good && (probe.intra_high != 0 || probe.intra_low != 0);
-  if (!good) return status_of(Code::invalid_argument, FbaFault::bad_settings);
+  if (!valid(settings_)) return status_of(Code::invalid_argument, FbaFault::bad_settings);
   out->bits(kObjectStart, 32);
   return out->fits() ? Status{} : status_of(Code::out_of_capacity, FbaFault::output_full);
+}
+
+Status FbaEncoder::change(const FbaSettings& settings) {
+  if (!valid(settings)) return status_of(Code::invalid_argument, FbaFault::bad_settings);
+  settings_ = settings;
+  adopt();
+  return {};
 }
 
 void FbaEncoder::write_code(std::uint32_t code, BitWriter* out) {

@@ -72,8 +72,11 @@ class FbaEncoder {
   FbaEncoder(const FbaEncoder&) = delete;
   FbaEncoder& operator=(const FbaEncoder&) = delete;
 
-  // The start code. invalid_argument: bad_settings.
+  // Writes the start code. invalid_argument: bad_settings.
   Status begin(BitWriter* out) const;
+  // Other settings from the next plane on, which becomes intra for every object it has. Errors: as
+  // begin(), and nothing changes.
+  Status change(const FbaSettings& settings);
   // One plane; the first one of an object (face, body) is made intra whatever the input says, with
   // all objects that are given. invalid_argument: no object. out_of_capacity: model_pool_full, the
   // next plane must be intra; output_full.
@@ -85,6 +88,7 @@ class FbaEncoder {
   std::int32_t slot_value(std::size_t slot) const { return value_[slot]; }
 
  private:
+  void adopt();
   void write_code(std::uint32_t code, BitWriter* out);
   void write_head(const FbaPlaneInput& plane, bool intra, BitWriter* out) const;
   void write_face_setup(BitWriter* out);
