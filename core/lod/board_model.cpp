@@ -93,15 +93,13 @@ const BoardCosts* find_board(std::span<const char> name) {
 Terms cpu_terms(const BoardCosts& board, const Work& work) {
   return {board.cpu_fixed_us,
           board.cpu_vertex_ns * 1e-3f * static_cast<float>(work.vertices_deformed),
-          board.cpu_record_ns * 1e-3f * static_cast<float>(work.records)};
+          board.cpu_record_ns * 1e-3f * static_cast<float>(work.records), 0.0f};
 }
 
 Terms gpu_terms(const BoardCosts& board, const Work& work) {
-  const float px_ns =
-      board.gpu_target_px_ns * work.target_px +
-      board.gpu_shaded_px_ns[static_cast<std::size_t>(work.shading)] * work.shaded_px;
+  const float shaded_ns = board.gpu_shaded_px_ns[static_cast<std::size_t>(work.shading)];
   return {board.gpu_fixed_us, board.gpu_triangle_ns * 1e-3f * static_cast<float>(work.triangles),
-          px_ns * 1e-3f};
+          board.gpu_target_px_ns * 1e-3f * work.target_px, shaded_ns * 1e-3f * work.shaded_px};
 }
 
 FrameSample VirtualBoard::run(const Work& work, std::uint8_t frame_divisor,

@@ -18,6 +18,8 @@ constexpr float kRefineGain = 1.08f;    // Less is not worth a change.
 constexpr float kReshare = 0.25f;       // An object's share must be this far off.
 constexpr float kWaitMin_s = 2.0f, kWaitMax_s = 64.0f, kMistake_s = 10.0f, kForgive_s = 120.0f;
 constexpr float kTryEvery_s = 0.25f;
+constexpr float kAhead_s = 0.5f;    // What a hidden and morphed change takes.
+constexpr float kTrend_s = 0.15f;   // Time constant of the camera's trend.
 constexpr float kThrottle = 1.43f;  // What a hot board is about to cost more: clocks fall by 30 %.
 constexpr std::uint32_t kRecordsMin = 64, kRecordsMax = 4096;
 
@@ -76,8 +78,22 @@ void BudgetController::advance_clock(const FrameSample& sample, const SceneNeeds
     *timer = std::min(*timer + s, kLong);
   if (!needs.idle) idle_s_ = 0.0f;
   evidence_s_ = std::max(evidence_s_ - s, 0.0f);
+  follow_camera(needs, s);
   overhead_us_ *= 1.0f - 0.02f * s;
   if (since_reduce_s_ > kForgive_s) wait_s_ = kWaitMin_s;
+}
+
+// A camera that moves in makes the coming frames dearer: plans for where it will be.
+void BudgetController::follow_camera(const SceneNeeds& needs, float passed_s) {
+  float covered_px = 0.0f;
+  for (std::size_t i = 0; i < count_of(needs); ++i)
+    covered_px += needs.objects[i].screen_px * needs.objects[i].overdraw;
+  if (passed_s > 0.0f && covered_px_ > 0.0f) {
+    const float rate = (covered_px - covered_px_) / passed_s;
+    trend_px_s_ += std::min(passed_s / kTrend_s, 1.0f) * (rate - trend_px_s_);
+  }
+  covered_px_ = covered_px;
+  approach_ = std::clamp(1.0f + kAhead_s * trend_px_s_ / std::max(covered_px, 1.0f), 1.0f, 2.0f);
 }
 
 void BudgetController::learn(const FrameSample& sample) {
@@ -89,19 +105,35 @@ void BudgetController::learn(const FrameSample& sample) {
   const bool evidence = evidence_s_ > 0.0f;
   const auto cpu_us = static_cast<float>(sample.cpu_us);
   cpu_.learn(cpu_terms(config_.prior, sample.drawn), cpu_us, late_, evidence);
-  const Terms gpu = gpu_terms(config_.prior, sample.drawn);
+  learn_gpu(sample, evidence);
+  if (thermal_ == ThermalLevel::normal) {
+    cool_cpu_ = cpu_.slowdown();
+    cool_gpu_ = gpu().slowdown();
+  }
+}
+
+void BudgetController::learn_gpu(const FrameSample& sample, bool evidence) {
+  const auto tier = static_cast<std::size_t>(sample.drawn.shading);
+  if (!seen_[tier]) gpu_[tier] = gpu_[tier_];
+  seen_[tier] = true;
+  tier_ = tier;
+  const Terms terms = gpu_terms(config_.prior, sample.drawn);
   if (sample.gpu_us != FrameSample::kUnknown) {
-    gpu_.learn(gpu, static_cast<float>(sample.gpu_us), late_, evidence);
+    const float step = gpu_[tier].learn(terms, static_cast<float>(sample.gpu_us), late_, evidence);
+    for (std::size_t other = 0; step != 1.0f && other < gpu_.size(); ++other)
+      if (other != tier) gpu_[other].scale(step);
     learn_overhead(sample);
   } else if (sample.vblanks > 0) {
     const int periods = late_ ? sample.vblanks - 1 : sample.vblanks;
-    gpu_.learn_bound(gpu, static_cast<float>(periods) * config_.vblank_us - kFlipLeadUs - cpu_us,
-                     late_);
+    const auto cpu_us = static_cast<float>(sample.cpu_us);
+    gpu_[tier].learn_bound(
+        terms, static_cast<float>(periods) * config_.vblank_us - kFlipLeadUs - cpu_us, late_);
   }
-  if (thermal_ == ThermalLevel::normal) {
-    cool_cpu_ = cpu_.slowdown();
-    cool_gpu_ = gpu_.slowdown();
-  }
+}
+
+const StageModel& BudgetController::gpu_for(Shading shading) const {
+  const auto tier = static_cast<std::size_t>(shading);
+  return gpu_[seen_[tier] ? tier : tier_];
 }
 
 // Late although both stages were in time: something between (commit, interrupt) costs more than we
@@ -121,16 +153,17 @@ float BudgetController::predict(const Work& work) const {
   const bool hot = thermal_ >= ThermalLevel::hot;
   const float cpu_factor =
       hot ? std::clamp(kThrottle * cool_cpu_ / cpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
+  const StageModel& gpu_model = gpu_for(work.shading);
   const float gpu_factor =
-      hot ? std::clamp(kThrottle * cool_gpu_ / gpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
+      hot ? std::clamp(kThrottle * cool_gpu_ / gpu_model.slowdown(), 1.0f, kThrottle) : 1.0f;
   return cpu_factor * cpu_.predict(cpu_terms(config_.prior, work)) +
-         gpu_factor * gpu_.predict(gpu_terms(config_.prior, work)) + overhead_us_;
+         gpu_factor * gpu_model.predict(gpu_terms(config_.prior, work)) + overhead_us_;
 }
 
 BudgetController::Limits BudgetController::limits(const Work& work) const {
   const float cpu_us = cpu_.predict(cpu_terms(config_.prior, work));
-  const float gpu_us = gpu_.predict(gpu_terms(config_.prior, work));
-  const float cpu_noise = cpu_us * cpu_.deviation(), gpu_noise = gpu_us * gpu_.deviation();
+  const float gpu_us = gpu_for(work.shading).predict(gpu_terms(config_.prior, work));
+  const float cpu_noise = cpu_us * cpu_.deviation(), gpu_noise = gpu_us * gpu().deviation();
   const float deviation =
       std::sqrt(cpu_noise * cpu_noise + gpu_noise * gpu_noise) / std::max(cpu_us + gpu_us, 1.0f);
   // Always the full rate: a lower one saves heat, it is not there to be filled with triangles.
@@ -151,7 +184,7 @@ Work BudgetController::work_of(std::span<const std::uint32_t> triangles, int run
     const ObjectNeed& need = needs.objects[i];
     work.triangles += triangles[i];
     deformed += need.deformed_per_triangle * static_cast<float>(triangles[i]);
-    work.shaded_px += need.screen_px * need.overdraw * area;
+    work.shaded_px += need.screen_px * need.overdraw * area * approach_;
   }
   work.vertices_deformed = static_cast<std::uint32_t>(deformed);
   work.target_px = needs.display_px * area;
@@ -169,7 +202,8 @@ BudgetController::Plan BudgetController::plan_at(int rung, float limit_us, float
   const std::size_t count = capped.size();
   Work one_triangle;
   one_triangle.triangles = 1000;
-  const float gpu_us = gpu_.gain(1) * gpu_terms(config_.prior, one_triangle)[1] * 1e-3f;
+  const float gpu_us = gpu_for(kRungs[static_cast<std::size_t>(rung)].shading).gain(1) *
+                       gpu_terms(config_.prior, one_triangle)[1] * 1e-3f;
   const float vertex_us = cpu_.gain(1) * config_.prior.cpu_vertex_ns * 1e-3f;
   std::array<float, kMaxObjects> triangle_us{};
   float wanted = 0.0f;
@@ -182,8 +216,8 @@ BudgetController::Plan BudgetController::plan_at(int rung, float limit_us, float
   const std::array<std::uint32_t, kMaxObjects> none{};
   // Anticipated throttling makes every term dearer, so it shrinks the budget instead.
   const Work bare = work_of(std::span(none).first(count), rung, needs);
-  const float plain =
-      cpu_.predict(cpu_terms(config_.prior, bare)) + gpu_.predict(gpu_terms(config_.prior, bare));
+  const float plain = cpu_.predict(cpu_terms(config_.prior, bare)) +
+                      gpu_for(bare.shading).predict(gpu_terms(config_.prior, bare));
   const float dearer = (predict(bare) - overhead_us_) / std::max(plain, 1.0f);
   const float budget = (limit_us - overhead_us_) / std::max(dearer, 1.0f) - plain;
   share_budget(capped, std::span(triangle_us).first(count), budget,
@@ -314,6 +348,7 @@ bool BudgetController::adjust_rate(const SceneNeeds& needs) {
 
 void BudgetController::adopt(const Plan& plan, Change change, bool at_once) {
   decision_.triangles = plan.triangles;
+  if (rung_ != plan.rung) gpu_[tier_].expect_change();
   rung_ = plan.rung;
   decision_.render_scale = kRungs[static_cast<std::size_t>(rung_)].render_scale;
   decision_.shading = kRungs[static_cast<std::size_t>(rung_)].shading;

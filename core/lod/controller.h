@@ -47,7 +47,8 @@ class BudgetController {
   const LodDecision& decision() const { return decision_; }
 
   const StageModel& cpu() const { return cpu_; }
-  const StageModel& gpu() const { return gpu_; }
+  // Of the shading that is drawn now.
+  const StageModel& gpu() const { return gpu_[tier_]; }
 
  private:
   struct Plan {  // A candidate decision.
@@ -62,8 +63,11 @@ class BudgetController {
   using Needs = std::array<ObjectNeed, kMaxObjects>;
 
   void advance_clock(const FrameSample& sample, const SceneNeeds& needs);
+  void follow_camera(const SceneNeeds& needs, float passed_s);
   void learn(const FrameSample& sample);
   void learn_overhead(const FrameSample& sample);
+  void learn_gpu(const FrameSample& sample, bool evidence);
+  const StageModel& gpu_for(Shading shading) const;
   float predict(const Work& work) const;
   Limits limits(const Work& work) const;
   Work work_of(std::span<const std::uint32_t> triangles, int rung, const SceneNeeds& needs) const;
@@ -80,9 +84,15 @@ class BudgetController {
   void pace(const FrameSample& sample, const SceneNeeds& needs);
 
   LodConfig config_;
-  StageModel cpu_, gpu_;
+  StageModel cpu_;
+  // One for each shading: profiles are least sure of what a fragment costs, and a tier that comes
+  // back must be known from before. A tier never drawn is judged by the gains of the present one.
+  std::array<StageModel, 3> gpu_;
+  std::array<bool, 3> seen_{};
+  std::size_t tier_ = static_cast<std::size_t>(Shading::per_pixel);
   LodDecision decision_;
   int rung_ = 0;
+  float covered_px_ = 0, trend_px_s_ = 0, approach_ = 1;  // Of all objects at render scale 1.
   float overhead_us_ = 0;              // Makes up for late frames that cpu and gpu do not explain.
   float cool_cpu_ = 1, cool_gpu_ = 1;  // Slowdown when the board was last cool.
   ThermalLevel thermal_ = ThermalLevel::normal;

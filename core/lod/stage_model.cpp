@@ -8,15 +8,16 @@ namespace {
 
 constexpr float kGainMin = 0.125f, kGainMax = 8.0f;
 constexpr float kVarianceMin = 0.02f * 0.02f, kVarianceMax = 0.12f * 0.12f;
-constexpr float kWalk = 5e-7f;    // Variance that a gain gains per frame: settles in ~50 frames.
-constexpr float kClipFit = 2.5f;  // Deviations.
+constexpr float kWalk = 5e-7f;       // Variance that a gain gains per frame: settles in ~50 frames.
+constexpr float kSurprise = 0.005f;  // A term may be 7 % off when something else is drawn.
+constexpr float kClipFit = 2.5f;     // Deviations.
 constexpr float kClipRun = 6.0f;
 // CUSUM: allowance k and threshold h in deviations. False alarms of normal noise come once in about
 // exp(2 k h) frames: 0.75 and 9 give 7e5, that is hours.
 constexpr float kAllowance = 0.75f;
 constexpr float kThreshold = 9.0f, kThresholdLate = 5.0f, kThresholdEvidence = 4.0f;
 constexpr float kThresholdDown = 12.0f;  // No hurry: nothing is late while it is cheaper.
-constexpr int kLateWindow = 120, kProbeMax = 3600 * 60;
+constexpr int kLateWindow = 120, kProbeMin = 30 * 60, kProbeMax = 600 * 60;  // Frames.
 
 }  // namespace
 
@@ -37,7 +38,7 @@ float StageModel::Run::mean_ratio() const {
 }
 
 float StageModel::predict(const Terms& x) const {
-  return gain_[0] * x[0] + gain_[1] * x[1] + gain_[2] * x[2];
+  return gain_[0] * x[0] + gain_[1] * x[1] + gain_[2] * x[2] + gain_[3] * x[3];
 }
 
 float StageModel::deviation() const { return std::sqrt(variance_); }
@@ -71,7 +72,8 @@ void StageModel::fit(const Terms& x, float predicted_us, float innovation_us) {
   for (std::size_t i = 0; i < kTermCount; ++i)
     for (std::size_t j = 0; j < kTermCount; ++j) px[i] += covariance_[i * kTermCount + j] * x[j];
   const float noise = variance_ * predicted_us * predicted_us;
-  const float scale_down = 1.0f / (x[0] * px[0] + x[1] * px[1] + x[2] * px[2] + noise);
+  const float scale_down =
+      1.0f / (x[0] * px[0] + x[1] * px[1] + x[2] * px[2] + x[3] * px[3] + noise);
   for (std::size_t i = 0; i < kTermCount; ++i) {
     gain_[i] = std::clamp(gain_[i] + px[i] * scale_down * innovation_us, kGainMin, kGainMax);
     for (std::size_t j = 0; j < kTermCount; ++j)
@@ -89,15 +91,22 @@ void StageModel::fit(const Terms& x, float predicted_us, float innovation_us) {
   }
 }
 
+void StageModel::expect_change() {
+  for (std::size_t i = 0; i < kTermCount; ++i)
+    covariance_[i * kTermCount + i] = std::min(covariance_[i * kTermCount + i] + kSurprise, kPrior);
+}
+
 void StageModel::learn_bound(const Terms& x, float bound_us, bool late) {
   const float predicted = std::max(predict(x), 1.0f);
   const float bound = std::max(bound_us, 1.0f);
+  if (late && predicted > bound) return;  // As the model expected: nothing is learnt.
   if (!late) {
     since_late_ = std::min(since_late_ + 1, 1 << 20);
     if (predicted > bound) scale(std::max(bound / predicted, 0.98f));
     if (++calm_ < probe_frames_) return;
     calm_ = 0;
     scale(0.96f);
+    if (++hopes_ >= 3) probe_frames_ = std::max(probe_frames_ / 2, kProbeMin);
     return;
   }
   const bool again = since_late_ < kLateWindow;
@@ -105,9 +114,9 @@ void StageModel::learn_bound(const Terms& x, float bound_us, bool late) {
   since_late_ = 0;
   calm_ = 0;
   if (!again) return;  // One late frame may be a spike.
-  probe_frames_ = std::min(2 * probe_frames_, kProbeMax);
-  const float least = std::min(1.05f * bound / predicted, 2.0f);
-  scale(std::max(in_a_row ? 1.5f : 1.06f, least));
+  if (hopes_ > 0) probe_frames_ = std::min(2 * probe_frames_, kProbeMax);
+  hopes_ = 0;
+  scale(std::max(in_a_row ? 1.5f : 1.06f, std::min(1.05f * bound / predicted, 2.0f)));
 }
 
 void StageModel::scale(float factor) {

@@ -7,8 +7,9 @@
 
 namespace caryatid::lod {
 
-// cost = gain[0] x[0] + gain[1] x[1] + gain[2] x[2], where x are the terms by the board's prior
-// profile (fixed, per triangle or vertex, per pixel or record) and the gains start at 1.
+// cost = gain[0] x[0] + .. + gain[3] x[3], where x are the terms by the board's prior profile (GPU:
+// fixed, triangles, target pixels, shaded pixels; CPU: fixed, vertices, records) and the gains
+// start at 1.
 //
 // Three things change a cost, and each has its own answer:
 // - Drift and a wrong prior: recursive least squares (a Kalman filter whose gains walk randomly),
@@ -23,7 +24,7 @@ namespace caryatid::lod {
 // - Noise: the deviation is tracked too and sets how much of a frame the controller leaves free.
 //
 // Gains stay in [1/8, 8], the deviation in [0.02, 0.12], whatever is fed in (0 and huge times
-// included). Size: 100 bytes. Cost: about 60 multiplications a frame. No libm beyond sqrt.
+// included). Size: 160 bytes. Cost: about 100 multiplications a frame. No libm beyond sqrt.
 class StageModel {
  public:
   // Microseconds. x: non-negative, at least one positive.
@@ -34,17 +35,27 @@ class StageModel {
   float learn(const Terms& x, float measured_us, bool late, bool evidence);
 
   // One frame of which only bounds are known (no fence): the cost was at most `bound_us`, or, when
-  // `late`, more than it. In time says nothing unless the model thought otherwise, so a model that
-  // is too pessimistic would never learn; hence every probe_frames in time it becomes 4 % more
-  // hopeful. Two late frames within 120 undo that and double probe_frames (30 s to 1 h at 60/s),
-  // so the price of probing falls to nothing.
+  // `late`, more than it. What the model expected anyway says nothing, so a model that is too
+  // pessimistic would never learn; hence after every probe_frames in time it becomes 4 % more
+  // hopeful. Two unexpected late frames within 120 undo that and double probe_frames (30 s to
+  // 10 min at 60/s), three hopes in a row that came true halve it.
   void learn_bound(const Terms& x, float bound_us, bool late);
+
+  // Every term becomes `factor` times as dear: a step that was seen elsewhere.
+  void scale(float factor);
+
+  // Something else is drawn from now on (another rung): believe the next frames more than usual.
+  void expect_change();
 
   float gain(std::size_t term) const { return gain_[term]; }
   float deviation() const;                      // Relative, of one frame.
   float slowdown() const { return slowdown_; }  // Product of all steps since the start.
 
  private:
+  static constexpr float kPrior = 0.09f;  // A profile's term is right to about 30 %.
+  static constexpr std::array<float, kTermCount * kTermCount> diagonal(float v) {
+    return {v, 0, 0, 0, 0, v, 0, 0, 0, 0, v, 0, 0, 0, 0, v};
+  }
   struct Run {  // CUSUM of one direction.
     float score = 0, sum = 0, largest = 0;
     int frames = 0;
@@ -52,16 +63,13 @@ class StageModel {
     float mean_ratio() const;
   };
   void fit(const Terms& x, float predicted_us, float innovation_us);
-  void scale(float factor);
 
-  std::array<float, kTermCount> gain_{1.0f, 1.0f, 1.0f};
-  std::array<float, kTermCount * kTermCount> covariance_{kPrior, 0, 0, 0, kPrior, 0, 0, 0, kPrior};
+  std::array<float, kTermCount> gain_{1.0f, 1.0f, 1.0f, 1.0f};
+  std::array<float, kTermCount* kTermCount> covariance_ = diagonal(kPrior);
   float variance_ = 0.04f * 0.04f;
   float slowdown_ = 1.0f;
   Run up_, down_;
-  int since_late_ = 1 << 20, calm_ = 0, probe_frames_ = 1800;
-
-  static constexpr float kPrior = 0.09f;  // A profile's term is right to about 30 %.
+  int since_late_ = 1 << 20, calm_ = 0, hopes_ = 0, probe_frames_ = 1800;
 };
 
 }  // namespace caryatid::lod
