@@ -9,7 +9,7 @@
 namespace caryatid::lod {
 namespace {
 
-constexpr float kPlanDeviations = 4.5f, kReduceDeviations = 3.2f, kHurryDeviations = 1.5f;
+constexpr float kPlanDeviations = 4.5f, kReduceDeviations = 3.2f, kHurryDeviations = 2.2f;
 constexpr float kComfort = 0.35f;        // Of the way from the coarsest mesh to the finest.
 constexpr float kComfortBetter = 0.40f;  // A better rung must be worth more than that: hysteresis.
 constexpr float kRefineTo = 0.97f;  // Of the plan, so that a refinement does not end at its edge.
@@ -104,8 +104,10 @@ void BudgetController::learn(const FrameSample& sample) {
   if (sample.cpu_us == FrameSample::kUnknown) return;
   const bool evidence = evidence_s_ > 0.0f;
   const auto cpu_us = static_cast<float>(sample.cpu_us);
-  cpu_.learn(cpu_terms(config_.prior, sample.drawn), cpu_us, late_, evidence);
-  learn_gpu(sample, evidence);
+  // A step of one stage makes one of the other likely: a hot board slows both.
+  const float step = cpu_.learn(cpu_terms(config_.prior, sample.drawn), cpu_us, late_, evidence);
+  if (step > 1.0f) evidence_s_ = 1.0f;
+  learn_gpu(sample, evidence || step > 1.0f);
   if (thermal_ == ThermalLevel::normal) {
     cool_cpu_ = cpu_.slowdown();
     cool_gpu_ = gpu().slowdown();
@@ -120,6 +122,7 @@ void BudgetController::learn_gpu(const FrameSample& sample, bool evidence) {
   const Terms terms = gpu_terms(config_.prior, sample.drawn);
   if (sample.gpu_us != FrameSample::kUnknown) {
     const float step = gpu_[tier].learn(terms, static_cast<float>(sample.gpu_us), late_, evidence);
+    if (step > 1.0f) evidence_s_ = 1.0f;
     for (std::size_t other = 0; step != 1.0f && other < gpu_.size(); ++other)
       if (other != tier) gpu_[other].scale(step);
     learn_overhead(sample);
@@ -265,18 +268,27 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   const Work work = work_of(std::span(decision_.triangles).first(count), rung_, needs);
   const Limits limit = limits(work);
   const float predicted = predict(work);
-  if (predicted <= limit.reduce_us || at_floor(needs)) return false;
+  // What is still in the frame while a change waits or morphs.
+  Work drawn = work;
+  drawn.triangles = std::max(work.triangles, sample.drawn.triangles);
+  drawn.vertices_deformed = std::max(work.vertices_deformed, sample.drawn.vertices_deformed);
+  const bool lagging = predict(drawn) > limit.hurry_us;
+  if ((predicted <= limit.reduce_us && !lagging) || at_floor(needs)) return false;
+  // One change a second unless something has happened: a step, a moving camera, a frame beyond
+  // hope.
+  const bool eventful = evidence_s_ > 0.0f || approach_ > 1.01f || predicted > limit.deadline_us;
+  if (since_change_s_ < 1.0f && !eventful) return false;
   Needs storage;
   const std::span<const ObjectNeed> capped = cap(needs, 1.0f, storage);
   Plan plan = best_plan(rung_, limit.plan_us, needs, capped);
-  const bool hurry = late_ || predicted > limit.hurry_us;
+  const bool hurry = late_ || lagging;
   bulk_ = false;
   // In a hurry the next frame must fit although nearly all of today's triangles are still in it.
   while (hurry) {
     Work next = work_of(std::span(plan.triangles).first(count), plan.rung, needs);
-    next.triangles = std::max(
-        next.triangles, sample.drawn.triangles - std::min(sample.drawn.triangles, 2 * kRecordsMin));
-    next.vertices_deformed = std::max(next.vertices_deformed, sample.drawn.vertices_deformed);
+    next.triangles =
+        std::max(next.triangles, drawn.triangles - std::min(drawn.triangles, 2 * kRecordsMin));
+    next.vertices_deformed = std::max(next.vertices_deformed, drawn.vertices_deformed);
     next.records = kRecordsMin;
     if (predict(next) <= limit.reduce_us) break;
     if (plan.rung + 1 == static_cast<int>(kRungs.size())) {
@@ -285,6 +297,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
     }
     plan = plan_at(plan.rung + 1, limit.plan_us, kComfort, needs, capped);
   }
+  if (plan.rung == rung_ && plan.triangles == decision_.triangles) return false;
   if (since_reduce_s_ > 1.0f && since_refine_s_ < kMistake_s)
     wait_s_ = std::min(2.0f * wait_s_, kWaitMax_s);
   since_reduce_s_ = 0.0f;
@@ -299,12 +312,18 @@ bool BudgetController::refine(const SceneNeeds& needs) {
   since_try_s_ = 0.0f;
   const std::size_t count = count_of(needs);
   const std::span<const std::uint32_t> now = std::span(decision_.triangles).first(count);
-  const float limit_us = kRefineTo * limits(work_of(now, rung_, needs)).plan_us;
+  const Limits limit = limits(work_of(now, rung_, needs));
+  const float limit_us = kRefineTo * limit.plan_us;
   Needs storage;
   const std::span<const ObjectNeed> capped = cap(needs, kRefineGrowth, storage);
   Change change = Change::refine;
   Plan plan;
   if (rung_ > 0) plan = plan_at(rung_ - 1, limit_us, kComfortBetter, needs, capped);
+  // Pixels come at once, triangles go slowly: they must be gone before the better rung comes.
+  if (plan.comfortable && predict(work_of(now, rung_ - 1, needs)) > limit.reduce_us) {
+    plan.rung = rung_;
+    change = Change::reshare;
+  }
   if (!plan.comfortable) {
     plan = plan_at(rung_, limit_us, 0.0f, needs, capped);
     const std::uint32_t sum_now = total(now);

@@ -57,6 +57,7 @@ float StageModel::learn(const Terms& x, float measured_us, bool late, bool evide
   if (risen || down_.score > kThresholdDown) {
     const float factor = risen ? up_.mean_ratio() : 1.0f / down_.mean_ratio();
     scale(factor);
+    expect_change();
     up_ = down_ = {};
     return factor;
   }
@@ -110,13 +111,13 @@ void StageModel::learn_bound(const Terms& x, float bound_us, bool late) {
     return;
   }
   const bool again = since_late_ < kLateWindow;
-  const bool in_a_row = since_late_ == 0;
+  const float least = since_late_ < 30 ? 1.5f : 1.2f;
   since_late_ = 0;
   calm_ = 0;
   if (!again) return;  // One late frame may be a spike.
   if (hopes_ > 0) probe_frames_ = std::min(2 * probe_frames_, kProbeMax);
   hopes_ = 0;
-  scale(std::max(in_a_row ? 1.5f : 1.06f, std::min(1.05f * bound / predicted, 2.0f)));
+  scale(std::max(least, std::min(1.05f * bound / predicted, 2.0f)));
 }
 
 void StageModel::scale(float factor) {
