@@ -16,7 +16,7 @@ constexpr float kRefineTo = 0.97f;  // Of the plan, so that a refinement does no
 constexpr float kRefineGrowth = 1.25f;  // Per change.
 constexpr float kRefineGain = 1.08f;    // Less is not worth a change.
 constexpr float kReshare = 0.25f;       // An object's share must be this far off.
-constexpr float kWaitMin_s = 2.0f, kWaitMax_s = 64.0f, kMistake_s = 10.0f, kForgive_s = 120.0f;
+constexpr float kWaitMin_s = 2.0f, kWaitMax_s = 64.0f, kMistake_s = 30.0f, kForgive_s = 120.0f;
 constexpr float kTryEvery_s = 0.25f;
 constexpr float kAhead_s = 0.5f;    // What a hidden and morphed change takes.
 constexpr float kTrend_s = 0.15f;   // Time constant of the camera's trend.
@@ -74,9 +74,10 @@ void BudgetController::advance_clock(const FrameSample& sample, const SceneNeeds
   last_time_us_ = sample.time_us;
   const float s = static_cast<float>(passed_us) * 1e-6f;
   for (float* timer : {&since_change_s_, &since_refine_s_, &since_reduce_s_, &since_try_s_,
-                       &since_unexplained_s_, &idle_s_})
+                       &since_unexplained_s_, &since_late_s_, &idle_s_})
     *timer = std::min(*timer + s, kLong);
   if (!needs.idle) idle_s_ = 0.0f;
+  if (late_) since_late_s_ = 0.0f;
   evidence_s_ = std::max(evidence_s_ - s, 0.0f);
   follow_camera(needs, s);
   overhead_us_ *= 1.0f - 0.02f * s;
@@ -272,11 +273,13 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   Work drawn = work;
   drawn.triangles = std::max(work.triangles, sample.drawn.triangles);
   drawn.vertices_deformed = std::max(work.vertices_deformed, sample.drawn.vertices_deformed);
+  drawn.shaded_px /= approach_;  // As it is, not as it will be.
   const bool lagging = predict(drawn) > limit.hurry_us;
   if ((predicted <= limit.reduce_us && !lagging) || at_floor(needs)) return false;
   // One change a second unless something has happened: a step, a moving camera, a frame beyond
   // hope.
-  const bool eventful = evidence_s_ > 0.0f || approach_ > 1.01f || predicted > limit.deadline_us;
+  const bool stepped = evidence_s_ > 0.0f && since_late_s_ < 0.5f;
+  const bool eventful = stepped || approach_ > 1.01f || predicted > limit.deadline_us;
   if (since_change_s_ < 1.0f && !eventful) return false;
   Needs storage;
   const std::span<const ObjectNeed> capped = cap(needs, 1.0f, storage);
@@ -289,6 +292,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
     next.triangles =
         std::max(next.triangles, drawn.triangles - std::min(drawn.triangles, 2 * kRecordsMin));
     next.vertices_deformed = std::max(next.vertices_deformed, drawn.vertices_deformed);
+    next.shaded_px /= approach_;
     next.records = kRecordsMin;
     if (predict(next) <= limit.reduce_us) break;
     if (plan.rung + 1 == static_cast<int>(kRungs.size())) {
@@ -298,9 +302,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
     plan = plan_at(plan.rung + 1, limit.plan_us, kComfort, needs, capped);
   }
   if (plan.rung == rung_ && plan.triangles == decision_.triangles) return false;
-  if (since_reduce_s_ > 1.0f && since_refine_s_ < kMistake_s)
-    wait_s_ = std::min(2.0f * wait_s_, kWaitMax_s);
-  since_reduce_s_ = 0.0f;
+  note_reduction();
   adopt(plan, Change::reduce, hurry);
   return true;
 }
@@ -327,7 +329,11 @@ bool BudgetController::refine(const SceneNeeds& needs) {
   if (!plan.comfortable) {
     plan = plan_at(rung_, limit_us, 0.0f, needs, capped);
     const std::uint32_t sum_now = total(now);
-    if (static_cast<float>(plan.triangle_sum) < kRefineGain * static_cast<float>(sum_now)) {
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < count; ++i) most += needs.objects[i].max_triangles;
+    const bool complete = plan.triangle_sum >= most && sum_now < most;
+    if (!complete &&
+        static_cast<float>(plan.triangle_sum) < kRefineGain * static_cast<float>(sum_now)) {
       change = Change::reshare;
       bool moved = false;
       for (std::size_t i = 0; i < count; ++i) {
@@ -346,23 +352,36 @@ bool BudgetController::adjust_rate(const SceneNeeds& needs) {
   const Work work = work_of(std::span(decision_.triangles).first(count_of(needs)), rung_, needs);
   const float load = predict(work) / limits(work).deadline_us;
   int divisor = 1;
+  bool saving = false;  // Chosen, not forced.
   if (thermal_ == ThermalLevel::critical) {
     const float frame_us = config_.vblank_us * static_cast<float>(config_.vblanks_per_frame);
-    divisor = std::max(static_cast<int>(100000.0f / frame_us + 0.5f), 1);
+    divisor = std::clamp(static_cast<int>(100000.0f / frame_us + 0.5f), 1, 32);
   } else if (at_floor(needs) && load > (decision_.frame_divisor > 1 ? 0.85f : 1.0f)) {
     divisor = std::clamp(static_cast<int>(std::ceil(load * 1.1f)), 2, 8);
   } else if (idle_s_ > 5.0f && thermal_ >= ThermalLevel::warm) {
     divisor = 2;
+    saving = true;
   }
+  const bool slower = divisor > decision_.frame_divisor;
   if (divisor == decision_.frame_divisor) return false;
-  // Slower at once, and faster at once when somebody comes; but not to and fro at the floor.
-  if (divisor < decision_.frame_divisor && at_floor(needs) && since_change_s_ < wait_s_)
-    return false;
-  decision_.change = divisor > decision_.frame_divisor ? Change::reduce : Change::refine;
+  // Slower at once, and faster at once when somebody comes; but not to and fro when it was forced.
+  if (!slower && !saving_ && since_change_s_ < wait_s_) return false;
+  if (slower && !saving) note_reduction();
+  if (!slower && !saving_) since_refine_s_ = 0.0f;
+  saving_ = saving;
+  decision_.change = slower ? Change::reduce : Change::refine;
   decision_.frame_divisor = static_cast<std::uint8_t>(divisor);
   decision_.cover_wait_ms = decision_.morph_ms = 0;
   since_change_s_ = 0.0f;
   return true;
+}
+
+// A reduction soon after a refinement says that the refinement was a mistake.
+void BudgetController::note_reduction() {
+  const bool camera = approach_ > 1.01f;  // Then the scene has changed, not the board.
+  if (since_reduce_s_ > 1.0f && since_refine_s_ < kMistake_s && !camera)
+    wait_s_ = std::min(2.0f * wait_s_, kWaitMax_s);
+  since_reduce_s_ = 0.0f;
 }
 
 void BudgetController::adopt(const Plan& plan, Change change, bool at_once) {

@@ -28,10 +28,10 @@ struct LodConfig {
 // In a hurry the rungs go first, because they act in the very next frame while records take time.
 //
 // Why it cannot oscillate, whatever it is fed: reductions only go down; a refinement comes at least
-// `wait` after the last change; when a reduction follows within 10 s, the refinement was a mistake
-// and `wait` doubles, from 2 s up to 64 s, back to 2 s only after 120 s without a reduction. So a
-// load that keeps coming and going gets one pair of changes a minute in the end, while the frames
-// in between run at the lower level.
+// `wait` after the last change; when a reduction follows within 30 s (and no camera moved in), the
+// refinement was a mistake and `wait` doubles, from 2 s up to 64 s, back to 2 s only after 120 s
+// without a reduction. So a load that comes and goes faster than that gets one pair of changes a
+// minute in the end, and the frames in between run at the lower level; a slower one is followed.
 //
 // Fixed memory (under 1 KiB), no clock, no randomness: same samples, same decisions, bit for bit.
 // Cost: below 0.3 us a step on a PC in the dead zone, about 5 us when the decision changes.
@@ -80,6 +80,7 @@ class BudgetController {
   bool reduce(const FrameSample& sample, const SceneNeeds& needs);
   bool refine(const SceneNeeds& needs);
   bool adjust_rate(const SceneNeeds& needs);
+  void note_reduction();
   void adopt(const Plan& plan, Change change, bool at_once);
   void pace(const FrameSample& sample, const SceneNeeds& needs);
 
@@ -97,11 +98,12 @@ class BudgetController {
   float cool_cpu_ = 1, cool_gpu_ = 1;  // Slowdown when the board was last cool.
   ThermalLevel thermal_ = ThermalLevel::normal;
   std::uint8_t other_load_percent_ = 0;
-  bool late_ = false, started_ = false, bulk_ = false;
+  bool late_ = false, started_ = false, bulk_ = false, saving_ = false;
   std::uint64_t last_time_us_ = 0;
   // Seconds, saturating far beyond every threshold.
   float since_change_s_ = 0, since_refine_s_ = kLong, since_reduce_s_ = kLong, since_try_s_ = 0;
-  float since_unexplained_s_ = kLong, idle_s_ = 0, evidence_s_ = 0, wait_s_ = 2;
+  float since_unexplained_s_ = kLong, since_late_s_ = kLong, idle_s_ = 0, evidence_s_ = 0,
+        wait_s_ = 2;
   static constexpr float kLong = 1e6f;
 };
 
