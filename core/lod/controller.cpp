@@ -378,8 +378,7 @@ bool BudgetController::adjust_rate(const SceneNeeds& needs) {
 
 // A reduction soon after a refinement says that the refinement was a mistake.
 void BudgetController::note_reduction() {
-  const bool camera = approach_ > 1.01f;  // Then the scene has changed, not the board.
-  if (since_reduce_s_ > 1.0f && since_refine_s_ < kMistake_s && !camera)
+  if (since_reduce_s_ > 1.0f && since_refine_s_ < kMistake_s)
     wait_s_ = std::min(2.0f * wait_s_, kWaitMax_s);
   since_reduce_s_ = 0.0f;
 }

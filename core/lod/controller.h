@@ -28,10 +28,10 @@ struct LodConfig {
 // In a hurry the rungs go first, because they act in the very next frame while records take time.
 //
 // Why it cannot oscillate, whatever it is fed: reductions only go down; a refinement comes at least
-// `wait` after the last change; when a reduction follows within 30 s (and no camera moved in), the
-// refinement was a mistake and `wait` doubles, from 2 s up to 64 s, back to 2 s only after 120 s
-// without a reduction. So a load that comes and goes faster than that gets one pair of changes a
-// minute in the end, and the frames in between run at the lower level; a slower one is followed.
+// `wait` after the last change; when a reduction follows within 30 s, the refinement was a mistake
+// and `wait` doubles, from 2 s up to 64 s, back to 2 s only after 120 s without a reduction. So a
+// load that comes and goes faster than that gets one pair of changes a minute in the end, and the
+// frames in between run at the lower level; a slower one is followed.
 //
 // Fixed memory (under 1 KiB), no clock, no randomness: same samples, same decisions, bit for bit.
 // Cost: below 0.3 us a step on a PC in the dead zone, about 5 us when the decision changes.
