@@ -75,7 +75,8 @@ class Tables {
         std::vector<Move>& moves = object.moves[channel];
         if (object.role == pack::ObjectRole::head)
           move_skin(object.mesh, *before, after, normal_before, normal_after, moves);
-        else if (const auto found = carriers_.find(o); found != carriers_.end())
+        else if (const auto found = carriers_.find(o);
+                 found != carriers_.end() && follows(object.role, movement.fap))
           move_part(object.mesh, found->second, *before, after, moves);
       }
       before = &after;
@@ -111,6 +112,11 @@ class Tables {
       out[v] = normal_before[v] + change;
     }
     return out;
+  }
+
+  // Brows lie on bone: no lid takes them along.
+  static bool follows(pack::ObjectRole role, int fap) {
+    return role != pack::ObjectRole::brow || fap < 19 || fap > 22;
   }
 
   void move_skin(const Mesh& mesh, const std::vector<Vec3>& before, const std::vector<Vec3>& after,

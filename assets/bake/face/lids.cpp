@@ -3,10 +3,8 @@
 // line: FAP 19 + FAP 21 = IRISD0 shuts the eye.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "assets/bake/face/movement.h"
-#include "assets/bake/face/smooth.h"
 
 namespace caryatid::bake::fat {
 namespace {
@@ -35,38 +33,63 @@ Vec3 rim_at(const Head& head, const std::vector<std::uint32_t>& rim, float x) {
 // the rims meet.
 struct Closure {
   std::vector<float> turn, growth;
-  std::vector<std::uint32_t> moved;
 };
 
-Closure closure_of(const Head& head, const Eye& eye, bool upper) {
-  const Skin& skin = head.skin;
+float step(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+// Height of the lower edge of a brow above a point.
+float under_brow(const Head& head, int side, Vec3 p) {
+  const Vec3 inner = head.place_of(4, 1 + side), middle = head.place_of(4, 3 + side),
+             outer = head.place_of(4, 5 + side);
+  const float x = head.lateral(p, side), xi = head.lateral(inner, side),
+              xm = head.lateral(middle, side), xo = head.lateral(outer, side);
+  const float t = x < xm ? (x - xi) / (xm - xi) : (x - xm) / (xo - xm);
+  const float along = std::clamp(t, 0.0f, 1.0f);
+  const float y = x < xm ? glm::mix(inner.y, middle.y, along) : glm::mix(middle.y, outer.y, along);
+  constexpr float kHalfBrow_m = 0.004f;
+  return y - kHalfBrow_m - p.y;
+}
+
+// Turn and growth of the rim at x, linear between its vertices, 0 at the corners.
+Vec2 closing_at(const Head& head, const Eye& eye, bool upper, float x) {
   const auto& own = upper ? eye.upper : eye.lower;
   const auto& other = upper ? eye.lower : eye.upper;
-  std::vector<std::uint32_t> given = eye.rim;
-  std::vector<Vec3> value(given.size(), Vec3(0));
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (std::find(own.begin(), own.end(), given[i]) == own.end()) continue;
-    const Vec3 p = skin.position_m[given[i]];
-    const Polar from = polar(p, eye.center_m), to = polar(rim_at(head, other, p.x), eye.center_m);
-    // Beyond the corners of the other rim there is nothing to meet: fade to the corner.
-    value[i] = {to.angle_rad - from.angle_rad, to.radius_m - from.radius_m, 0};
-  }
-  constexpr float kLidHeight_m[2] = {0.014f, 0.017f};  // Lower, upper: to the bone of the orbit.
-  const auto own_m = distance_m(skin, own, 0.03f), other_m = distance_m(skin, other, 0.03f);
-  const float brow = upper ? std::min(head.place_of(4, 1).y, head.place_of(4, 5).y) : 1e9f;
+  const Vec3 a = rim_at(head, own, x), b = rim_at(head, other, x);
+  const float left =
+      std::min(head.skin.position_m[own.front()].x, head.skin.position_m[other.front()].x);
+  const float right =
+      std::max(head.skin.position_m[own.back()].x, head.skin.position_m[other.back()].x);
+  constexpr float kCorner_m = 0.0015f;
+  const float inside =
+      std::min(step((x - left) / kCorner_m + 1.0f), step((right - x) / kCorner_m + 1.0f));
+  const Polar from = polar(a, eye.center_m), to = polar(b, eye.center_m);
+  return inside * Vec2(to.angle_rad - from.angle_rad, to.radius_m - from.radius_m);
+}
+
+// A lid turns whole at its rim and less and less up to the edge of the orbit or the brow; a product
+// of smooth steps, which cannot overshoot in the narrow strip beneath a low brow.
+Closure closure_of(const Head& head, int side, bool upper) {
+  const Eye& eye = head.eye[static_cast<std::size_t>(side)];
+  const Skin& skin = head.skin;
+  const auto& own = upper ? eye.upper : eye.lower;
+  constexpr float kLid_m[2] = {0.014f, 0.016f};  // Lower, upper: to the bone of the orbit.
+  constexpr float kBehind_m = 0.009f;            // The lining gives way behind the rim.
+  const auto own_m = distance_m(skin, own, 0.03f);
+  const auto other_m = distance_m(skin, upper ? eye.lower : eye.upper, 0.03f);
+  Closure closure{std::vector<float>(skin.size(), 0.0f), std::vector<float>(skin.size(), 0.0f)};
   for (std::uint32_t v = 0; v < skin.size(); ++v) {
-    if (std::find(eye.rim.begin(), eye.rim.end(), v) != eye.rim.end()) continue;
-    const bool far = !(own_m[v] < (eye.inside[v] ? 0.009f : kLidHeight_m[upper ? 1 : 0]));
-    if (!far && own_m[v] <= other_m[v] && skin.position_m[v].y < brow - 0.002f) continue;
-    given.push_back(v);
-    value.push_back(Vec3(0));
-  }
-  const std::vector<Vec3> solved = SmoothFields(skin, given).solve(value);
-  Closure closure;
-  for (const Vec3& s : solved) {
-    // No part of a lid turns farther than its rim or backwards.
-    closure.turn.push_back(upper ? std::min(s.x, 0.0f) : std::max(s.x, 0.0f));
-    closure.growth.push_back(s.y);
+    if (!std::isfinite(own_m[v]) || own_m[v] > other_m[v]) continue;
+    const Vec3 p = skin.position_m[v];
+    float end = eye.inside[v] ? kBehind_m : kLid_m[upper ? 1 : 0];
+    if (upper && !eye.inside[v])
+      end = std::min(end, own_m[v] + std::max(under_brow(head, side, p), 0.0f));
+    const float share = own_m[v] <= 0.0f ? 1.0f : step(1.0f - own_m[v] / std::max(end, 1e-6f));
+    const Vec2 closing = closing_at(head, eye, upper, p.x);
+    closure.turn[v] = share * closing.x;
+    closure.growth[v] = share * closing.y;
   }
   return closure;
 }
@@ -78,8 +101,7 @@ std::vector<Vec3> turned(const Head& head, const Eye& eye, const Closure& closur
     const Vec3 p = head.skin.position_m[v];
     const Polar from = polar(p, eye.center_m);
     const float angle = from.angle_rad + share * closure.turn[v];
-    // On its way over the cornea a lid is pushed out a little where it is tight on the ball.
-    float radius = from.radius_m + share * closure.growth[v];
+    const float radius = from.radius_m + share * closure.growth[v];
     out[v] = Vec3(p.x, eye.center_m.y + radius * std::sin(angle),
                   eye.center_m.z + radius * std::cos(angle)) -
              p;
@@ -113,7 +135,7 @@ void add_lids(const Head& head, const ReachOf& reach, std::vector<Movement>& out
     for (const bool upper : {true, false}) {
       const int fap = (upper ? 19 : 21) + side;
       const std::uint32_t point = head.vertex_of(3, (upper ? 1 : 3) + side);
-      const Closure closure = closure_of(head, eye, upper);
+      const Closure closure = closure_of(head, side, upper);
       const auto field = [&](float closing_m) {
         const float lift = upper ? -closing_m : closing_m;
         return turned(head, eye, closure, share_for(head, eye, closure, point, lift));
