@@ -53,24 +53,19 @@ Region quad_region(const Quad& quad, std::span<const Region> regions) {
   return regions[quad.vertex[0]];
 }
 
-// By vertex: whether it belongs to a connected part that lies in the lower half (of the teeth).
-std::vector<bool> lower_parts(std::span<const Quad> quads, std::span<const Vec3> position_m) {
-  const auto neighbours = edge_neighbours(quads, position_m.size());
-  std::vector<bool> out(position_m.size(), false), seen(position_m.size(), false);
-  float middle = 0.0f;
-  for (const Vec3 p : position_m) middle += p.y / static_cast<float>(position_m.size());
-  for (std::uint32_t start = 0; start < position_m.size(); ++start) {
-    if (seen[start]) continue;
-    std::vector<std::uint32_t> part{start};
-    seen[start] = true;
-    float height = 0.0f;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      height += position_m[part[i]].y;
-      for (const std::uint32_t n : neighbours[part[i]])
-        if (!seen[n]) seen[n] = true, part.push_back(n);
-    }
-    if (height / static_cast<float>(part.size()) < middle)
-      for (const std::uint32_t v : part) out[v] = true;
+// Vertices of a part that hang on the jaw or on bones beneath it, by the part's own weights.
+std::vector<bool> on_jaw(const BaseHuman& base, const Proxy& proxy) {
+  const std::uint32_t jaw = base.bone("jaw");
+  std::vector<bool> beneath(base.bones().size(), false);
+  for (std::uint32_t b = 0; b < beneath.size(); ++b)
+    for (std::uint32_t up = b; up != kNone; up = base.bones()[up].parent)
+      if (up == jaw) beneath[b] = true;
+  std::vector<bool> out;
+  for (const Influence& influence : proxy.influence) {
+    float share = 0.0f;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (beneath[influence.joint[k]]) share += influence.weight[k];
+    out.push_back(share > 0.5f);
   }
   return out;
 }
@@ -203,7 +198,7 @@ class Builder {
         [&](std::uint32_t v) { return (*weights_)(part.proxy.influence[v], part.position_m[v]); },
         false};
     if (kind == "teeth") {  // The lower ones go with the jaw.
-      const std::vector<bool> lower = lower_parts(part.proxy.quads, part.position_m);
+      const std::vector<bool> lower = on_jaw(base_, part.proxy);
       const auto is_lower = [&](const Quad& quad) { return bool(lower[quad.vertex[0]]); };
       add_object("upper_teeth", role, m,
                  make_mesh(source, [&](const Quad& q) { return !is_lower(q); }));
@@ -222,6 +217,13 @@ class Builder {
       const std::uint32_t clear =
           add_material(material, pack::kCornea, pack::kNoTexture, 1.0f, 120.0f);
       add_object("corneas", role, clear, make_mesh(source, is_cornea));
+      return;
+    }
+    if (kind == "tongue") {  // Rooted in the jaw's floor.
+      Mesh tongue = make_mesh(source, [](const Quad&) { return true; });
+      for (Influence& influence : tongue.influence)
+        influence = {{joint_of(body::HanimJoint::temporomandibular)}, {1.0f}};
+      add_object(kind, role, m, std::move(tongue));
       return;
     }
     add_object(kind == "clothes" ? name.substr(name.find('/') + 1) : kind, role, m,
