@@ -10,5 +10,7 @@ void add_fba(CLI::App& app);
 void add_gait(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sheet(CLI::App& app);
+void add_simplify(CLI::App& app);
+void add_history(CLI::App& app);
 
 }  // namespace caryatid::tool

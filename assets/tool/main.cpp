@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   add_gait(app);
   add_render(app);
   add_sheet(app);
+  add_simplify(app);
+  add_history(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -1,0 +1,210 @@
+// caryatid-tool simplify and history: any mesh, coarser, and back.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "assets/bake/mesh_io/mesh_io.h"
+#include "assets/bake/mesh_io/repair.h"
+#include "assets/bake/simplify/distance.h"
+#include "assets/bake/simplify/history.h"
+#include "assets/tool/commands.h"
+
+namespace caryatid::tool {
+namespace {
+
+using bake::MeshError;
+using bake::Surface;
+
+struct SimplifyArgs {
+  std::string in, out, lock, history, report;
+  std::uint32_t faces = 0;
+  double max_error = 0;
+};
+
+void progress(const char* what) {
+  if (isatty(2) != 0) std::fprintf(stderr, "\r\033[K%s", what);
+}
+void progress_done() {
+  if (isatty(2) != 0) std::fprintf(stderr, "\r\033[K");
+}
+
+// A vertex number a line, counted from 1 as in OBJ; '#' comments.
+std::vector<std::uint32_t> read_locks(const std::string& path, const bake::RepairReport& repairs) {
+  std::vector<std::uint32_t> out;
+  const std::string text = bake::read_file(path);
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string word = text.substr(at, end - at);
+    at = end + 1;
+    ++line;
+    word = word.substr(0, word.find('#'));
+    if (word.find_first_not_of(" \t\r") == std::string::npos) continue;
+    char* rest = nullptr;
+    const long long v = std::strtoll(word.c_str(), &rest, 10);
+    if (v < 1 || static_cast<std::size_t>(v) > repairs.vertex_of_input.size() ||
+        std::string(rest).find_first_not_of(" \t\r") != std::string::npos)
+      throw MeshError(path + ":" + std::to_string(line) +
+                      ": a lock is the number of a vertex of the mesh, counted from 1");
+    const std::uint32_t surface = repairs.vertex_of_input[static_cast<std::size_t>(v - 1)];
+    if (surface != bake::kNoHalfEdge) out.push_back(surface);
+  }
+  return out;
+}
+
+// The coarsest level of the history, of at least `least` faces, whose measured distance to the
+// original, both ways, keeps within the bound. Error grows with coarseness but for small ripples:
+// bisection, then upwards until it holds.
+Surface coarsest_within(const bake::History& history, const Surface& original, double bound,
+                        std::uint32_t least) {
+  const bake::SurfaceTree tree(original);
+  bake::HistoryCursor cursor(history);
+  const auto holds = [&](std::uint32_t faces) {
+    cursor.go_to(faces);
+    progress(("measuring " + std::to_string(cursor.triangle_count()) + " faces").c_str());
+    const Surface level = cursor.surface();
+    if (bake::one_sided(level, tree, 10, 2).max > bound) return false;
+    return bake::one_sided(original, bake::SurfaceTree(level), 10, 1).max <= bound;
+  };
+  auto low = std::max(least, static_cast<std::uint32_t>(history.base.triangles.size()));
+  std::uint32_t high = history.max_triangles();
+  if (low >= high || holds(low)) {
+    cursor.go_to(low);
+    return cursor.surface();
+  }
+  while (high - low > 2) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    (holds(middle) ? high : low) = middle;
+  }
+  while (!holds(high) && high < history.max_triangles()) high += 2;
+  cursor.go_to(high);
+  return cursor.surface();
+}
+
+nlohmann::json side(const bake::OneSided& d) {
+  return {{"mean", d.mean}, {"rms", d.rms}, {"max", d.max}};
+}
+
+nlohmann::json make_report(const Surface& before, const Surface& after, const Surface& stored,
+                           double seconds, const bake::RepairReport& repairs) {
+  const bake::SurfaceFacts a = bake::facts_of(before), b = bake::facts_of(after);
+  const bake::SurfaceError e = bake::measure_error(before, after);
+  const auto relative = [&](double volume) {
+    return a.volume != 0 ? (volume - a.volume) / std::abs(a.volume) : 0.0;
+  };
+  return {{"faces_in", a.triangles},
+          {"faces_out", b.triangles},
+          {"seconds", seconds},
+          {"volume_change", relative(b.volume)},
+          {"stored_volume_change", relative(bake::facts_of(stored).volume)},
+          {"hausdorff", e.hausdorff()},
+          {"rms", e.rms()},
+          {"mean", e.mean()},
+          {"original_to_simplified", side(e.forward)},
+          {"simplified_to_original", side(e.backward)},
+          {"unit_of_errors", "that of the mesh"},
+          {"bounding_box_diagonal", a.diagonal},
+          {"boundary_kept", a.border_loops == b.border_loops},
+          {"boundary_loops", {a.border_loops, b.border_loops}},
+          {"boundary_length", {a.border_length, b.border_length}},
+          {"euler", {a.euler, b.euler}},
+          {"components", {a.components, b.components}},
+          {"repairs", repairs.text()}};
+}
+
+void run_simplify(const SimplifyArgs& args) {
+  const bake::MeshFormat format = bake::format_of(args.out);
+  progress("reading");
+  bake::RepairReport repairs;
+  const Surface original = bake::repair_surface(bake::read_mesh(args.in), &repairs);
+  if (original.triangles.empty()) throw MeshError(args.in + ":1: no face is left after repair");
+  bake::CollapseOptions options;
+  if (!args.lock.empty()) options.locked = read_locks(args.lock, repairs);
+  const auto began = std::chrono::steady_clock::now();
+  progress("simplifying");
+  Surface result;
+  if (args.history.empty() && args.max_error == 0) {
+    options.target_triangles = args.faces;
+    result = bake::collapse_edges(original, options);
+  } else {
+    options.target_triangles = args.history.empty() ? args.faces : 0;
+    const bake::History history = bake::record_history(original, options);
+    if (args.max_error > 0) {
+      result = coarsest_within(history, original, args.max_error, args.faces);
+    } else {
+      bake::HistoryCursor cursor(history);
+      cursor.go_to(args.faces);
+      result = cursor.surface();
+    }
+    if (!args.history.empty()) bake::write_file(args.history, bake::format_history(history));
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+  const std::string bytes = bake::format_mesh(result, format);
+  bake::write_file(args.out, bytes);
+  if (!args.report.empty()) {
+    progress("measuring");
+    const Surface stored = bake::parse_mesh(bytes, format, args.out);
+    bake::write_file(
+        args.report,
+        make_report(original, result, stored, seconds.count(), repairs).dump(2) + "\n");
+  }
+  progress_done();
+  if (!repairs.text().empty())
+    std::fprintf(stderr, "caryatid-tool: %s: %s\n", args.in.c_str(), repairs.text().c_str());
+  std::printf("%zu -> %zu faces in %.3f s\n", original.triangles.size(), result.triangles.size(),
+              seconds.count());
+}
+
+struct HistoryArgs {
+  std::string in, out;
+  std::uint32_t faces = 0;
+};
+
+void run_history(const HistoryArgs& args) {
+  const bake::MeshFormat format = bake::format_of(args.out);
+  const bake::History history = bake::parse_history(bake::read_file(args.in), args.in);
+  bake::HistoryCursor cursor(history);
+  cursor.go_to(args.faces);
+  bake::write_file(args.out, bake::format_mesh(cursor.surface(), format));
+  std::printf("%u of %zu to %u faces\n", cursor.triangle_count(), history.base.triangles.size(),
+              history.max_triangles());
+}
+
+}  // namespace
+
+void add_simplify(CLI::App& app) {
+  auto args = std::make_shared<SimplifyArgs>();
+  CLI::App* c = app.add_subcommand("simplify", "Makes a mesh coarser by memoryless edge collapse");
+  c->footer("Example: caryatid-tool simplify bunny.obj --faces 2000 -o small.obj --report r.json");
+  c->add_option("IN", args->in, "Mesh: .obj, .off or .ply")->required();
+  CLI::Option* faces = c->add_option("--faces", args->faces, "Stop at so many triangles");
+  CLI::Option* error =
+      c->add_option("--max-error", args->max_error,
+                    "Stop before the distance to the original, measured both ways, passes this; in "
+                    "units of the mesh. With --faces: whichever comes first");
+  error->check(CLI::PositiveNumber);
+  c->add_option("--lock", args->lock, "Vertices that stay: a number a line, counted from 1");
+  c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required();
+  c->add_option("--history", args->history, "Write the way back, for caryatid-tool history");
+  c->add_option("--report", args->report, "Write figures as JSON");
+  c->callback([args, faces, error] {
+    if (faces->count() == 0 && error->count() == 0)
+      throw CLI::ValidationError("simplify", "give --faces N or --max-error E");
+    run_simplify(*args);
+  });
+}
+
+void add_history(CLI::App& app) {
+  auto args = std::make_shared<HistoryArgs>();
+  CLI::App* c = app.add_subcommand("history", "Gives any level out of a recorded history");
+  c->footer("Example: caryatid-tool history bunny.history --faces 5000 -o level.obj");
+  c->add_option("IN", args->in, "From caryatid-tool simplify --history")->required();
+  c->add_option("--faces", args->faces, "At most so many triangles")->required();
+  c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required();
+  c->callback([args] { run_history(*args); });
+}
+
+}  // namespace caryatid::tool

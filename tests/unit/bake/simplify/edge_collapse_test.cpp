@@ -1,0 +1,177 @@
+#include "assets/bake/simplify/edge_collapse.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "assets/bake/mesh_io/mesh_io.h"
+#include "assets/bake/mesh_io/repair.h"
+#include "assets/bake/simplify/distance.h"
+#include "assets/bake/simplify/fast_cost.h"
+#include "assets/bake/simplify/history.h"
+#include "assets/bake/simplify/placement.h"
+#include "tests/unit/bake/simplify/shapes.h"
+
+namespace caryatid::bake {
+namespace {
+
+Surface down_to(Surface s, std::uint32_t faces, CollapseReport* report = nullptr) {
+  CollapseOptions options;
+  options.target_triangles = faces;
+  return collapse_edges(std::move(s), options, report);
+}
+
+TEST(EdgeCollapse, ATetrahedronStays) {
+  Surface s{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  EXPECT_EQ(down_to(s, 0).triangles.size(), 4u);
+}
+
+TEST(EdgeCollapse, MeetsItsTargetWithinOne) {
+  for (const std::uint32_t n : {20u, 101u, 500u}) {
+    const std::size_t faces = down_to(ball(16, 0.1), n).triangles.size();
+    EXPECT_LE(faces, n);
+    EXPECT_GE(faces + 1, n);
+  }
+}
+
+TEST(EdgeCollapse, ClosedVolumeIsKept) {
+  const Surface s = ball(60, 0.15);
+  const double before = facts_of(s).volume;
+  for (const std::uint32_t n : {5000u, 1000u, 200u, 60u})
+    EXPECT_NEAR(facts_of(down_to(s, n)).volume / before, 1.0, 1e-12);
+}
+
+TEST(EdgeCollapse, AFlatSquareKeepsItsBorderExactly) {
+  const Surface s = down_to(grid(12, 12, 0.0), 20);
+  const SurfaceFacts facts = facts_of(s);
+  EXPECT_LE(facts.triangles, 20u);
+  EXPECT_NEAR(facts.border_length, 48.0, 1e-9);
+  for (const Vec3d& p : s.position) EXPECT_NEAR(p.z, 0.0, 1e-12);
+}
+
+TEST(EdgeCollapse, TopologyIsKept) {
+  for (const Surface& s : {ball(20, 0.2), grid(15, 20, 1.0)}) {
+    const SurfaceFacts before = facts_of(s), after = facts_of(down_to(s, 60));
+    EXPECT_EQ(after.euler, before.euler);
+    EXPECT_EQ(after.components, before.components);
+    EXPECT_EQ(after.border_loops, before.border_loops);
+  }
+}
+
+TEST(EdgeCollapse, LockedVerticesStandStill) {
+  const Surface s = ball(16, 0.1);
+  CollapseOptions options;
+  options.target_triangles = 40;
+  options.locked = {7, 33, 100};
+  const Surface out = collapse_edges(s, options);
+  for (const std::uint32_t v : options.locked)
+    EXPECT_NE(std::find(out.position.begin(), out.position.end(), s.position[v]),
+              out.position.end());
+}
+
+TEST(EdgeCollapse, IsDeterministic) {
+  const Surface a = down_to(ball(20, 0.1), 100), b = down_to(ball(20, 0.1), 100);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+// The four-edge float cost against the double one of the equations, around a bumpy vertex pair.
+TEST(FastCost, AgreesWithTheEquations) {
+  const Vec3d a(0, 0, 0.3), b(1, 0.1, 0.2);
+  const Vec3d l(0.5, 0.9, 0), r(0.5, -1, 0.1);
+  const Vec3d a1(-0.6, 0.7, 0), a2(-0.7, -0.6, 0.05), b1(1.7, 0.6, -0.1), b2(1.6, -0.8, 0);
+  const std::array<std::array<Vec3d, 3>, 8> triangles = {{{a, b, l},
+                                                          {b, a, r},
+                                                          {a, l, a1},
+                                                          {a, a1, a2},
+                                                          {a, a2, r},
+                                                          {b, b1, l},
+                                                          {b, b2, b1},
+                                                          {b, r, b2}}};
+  const Vec3d middle = 0.5 * (a + b);
+  EdgeSums sums;
+  VertexQuadric qa, qb;
+  for (const auto& t : triangles) {
+    sums.add_triangle(t[0] - middle, t[1] - middle, t[2] - middle);
+    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+    const auto add = [&n](VertexQuadric* q) {
+      q->add(static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z), 1.0f);
+    };
+    for (const Vec3d& p : t) {
+      if (p == a) add(&qa);
+      if (p == b) add(&qb);
+    }
+  }
+  const double exact = 72.0 * collapse_cost(sums, best_position(sums).value());
+  EdgeBatch batch{};
+  for (std::uint32_t lane = 0; lane < 4; ++lane) {
+    batch.set_ends(lane, qa, qb);
+    const Vec3d left = cross(b - a, l - a), right = cross(r - a, b - a);
+    for (int i = 0; i < 3; ++i) {
+      batch.half[i][lane] = static_cast<float>(0.5 * (b - a)[i]);
+      batch.left[i][lane] = static_cast<float>(left[i]);
+      batch.right[i][lane] = static_cast<float>(right[i]);
+    }
+  }
+  batch.evaluate();
+  EXPECT_GT(exact, 0.0);
+  for (const float cost : batch.cost) EXPECT_NEAR(static_cast<double>(cost), exact, 1e-4 * exact);
+}
+
+TEST(History, FinestLevelIsTheOriginalBitForBit) {
+  const Surface s = ball(16, 0.1);
+  CollapseOptions options;
+  options.target_triangles = 12;
+  const History h = record_history(s, options);
+  HistoryCursor cursor(h);
+  cursor.go_to(100000);
+  EXPECT_EQ(cursor.surface().position, s.position);
+  EXPECT_EQ(cursor.surface().triangles, s.triangles);
+}
+
+TEST(History, EveryLevelIsThatOfTheSimplificationItself) {
+  const Surface s = grid(12, 15, 0.8);
+  CollapseOptions options;
+  options.target_triangles = 10;
+  const History h = record_history(s, options);
+  HistoryCursor cursor(h);
+  for (const std::uint32_t n : {300u, 50u, 200u, 51u, 120u}) {
+    cursor.go_to(n);
+    const Surface direct = down_to(s, n);
+    EXPECT_EQ(cursor.surface().position, direct.position);
+    EXPECT_EQ(cursor.surface().triangles, direct.triangles);
+  }
+}
+
+TEST(History, FileComesBackTheSame) {
+  CollapseOptions options;
+  options.target_triangles = 12;
+  const History h = record_history(grid(6, 9, 0.8), options);
+  const std::string bytes = format_history(h);
+  EXPECT_EQ(format_history(parse_history(bytes, "h")), bytes);
+}
+
+TEST(History, AnyFlippedBitIsRefused) {
+  CollapseOptions options;
+  options.target_triangles = 12;
+  const std::string bytes = format_history(record_history(grid(4, 4, 0.8), options));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::string bad = bytes;
+    bad[i] = static_cast<char>(bad[i] ^ 0x10);
+    EXPECT_THROW((void)parse_history(bad, "h"), std::runtime_error) << i;
+  }
+  EXPECT_THROW((void)parse_history(bytes.substr(0, bytes.size() - 1), "h"), std::runtime_error);
+}
+
+TEST(Distance, OfParallelSquaresIsTheirGap) {
+  Surface a = grid(3, 3, 0.0), b = a;
+  for (Vec3d& p : b.position) p.z = 0.25;
+  const SurfaceError e = measure_error(a, b);
+  EXPECT_NEAR(e.mean(), 0.25, 1e-12);
+  EXPECT_NEAR(e.rms(), 0.25, 1e-12);
+  EXPECT_NEAR(e.hausdorff(), 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace caryatid::bake
