@@ -114,7 +114,13 @@ Vec3 followed(const Head& head, const Carrier& carrier, Vec3 position_m,
               const std::vector<Vec3>& displacement) {
   Vec3 shift{0};
   for (std::size_t i = 0; i < 4; ++i) shift += carrier.weight[i] * displacement[carrier.skin[i]];
-  if (carrier.eye < 0) return shift;
+  if (carrier.eye < 0) {
+    // The cards of a brow are coarser than the skin that bulges beneath them.
+    constexpr float kLift = 0.06f;
+    Vec3 out{0};
+    for (std::size_t i = 0; i < 4; ++i) out += carrier.weight[i] * head.normal[carrier.skin[i]];
+    return shift + kLift * glm::length(shift) * out;
+  }
   // A lash turns with its rim about the eyeball's axis and keeps its distance from the rim.
   const Vec3 center = head.eye[static_cast<std::size_t>(carrier.eye)].center_m;
   Vec3 root{0};

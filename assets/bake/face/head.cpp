@@ -79,31 +79,8 @@ void flood(const Skin& skin, std::uint32_t from, std::vector<bool>& reached) {
   }
 }
 
-Eye make_eye(const Head& head, const Character& character, const BaseHuman& base, int side) {
-  const auto id = [&](std::uint32_t left) {
-    return on_skin(head.skin, side == 0 ? left : mirrored(base, left));
-  };
-  const Skin& skin = head.skin;
-  Eye eye;
-  eye.rim = ring(skin, id(kLeftRim), id(kLeftRimNext));
-  const auto by_x = [&](std::uint32_t a, std::uint32_t b) {
-    return skin.position_m[a].x < skin.position_m[b].x;
-  };
-  const auto corners = std::minmax_element(eye.rim.begin(), eye.rim.end(), by_x);
-  const Vec3 low = skin.position_m[*corners.first], high = skin.position_m[*corners.second];
-  for (const std::uint32_t v : eye.rim) {
-    if (v == *corners.first || v == *corners.second) continue;
-    const Vec3 p = skin.position_m[v];
-    const float t = (p.x - low.x) / (high.x - low.x);
-    (p.y > low.y + t * (high.y - low.y) ? eye.upper : eye.lower).push_back(v);
-  }
-  std::sort(eye.upper.begin(), eye.upper.end(), by_x);
-  std::sort(eye.lower.begin(), eye.lower.end(), by_x);
-  eye.inside.assign(skin.size(), false);
-  for (const std::uint32_t v : eye.rim) eye.inside[v] = true;  // The rim stops the flood.
-  flood(skin, id(kLeftBehindRim), eye.inside);
-  for (const std::uint32_t v : eye.rim) eye.inside[v] = false;
-
+Eye make_eye(const Skin& skin, const Character& character, const BaseHuman& base, int side) {
+  Eye eye = find_eye(skin, base, side);
   const auto joint = body::index_of(side == 0 ? body::HanimJoint::l_eyeball_joint
                                               : body::HanimJoint::r_eyeball_joint);
   for (const Joint& j : character.joints)
@@ -175,6 +152,32 @@ void find_points(const Character& character, Head& head) {
 
 }  // namespace
 
+Eye find_eye(const Skin& skin, const BaseHuman& base, int side) {
+  const auto id = [&](std::uint32_t left) {
+    return on_skin(skin, side == 0 ? left : mirrored(base, left));
+  };
+  Eye eye;
+  eye.rim = ring(skin, id(kLeftRim), id(kLeftRimNext));
+  const auto by_x = [&](std::uint32_t a, std::uint32_t b) {
+    return skin.position_m[a].x < skin.position_m[b].x;
+  };
+  const auto corners = std::minmax_element(eye.rim.begin(), eye.rim.end(), by_x);
+  const Vec3 low = skin.position_m[*corners.first], high = skin.position_m[*corners.second];
+  for (const std::uint32_t v : eye.rim) {
+    if (v == *corners.first || v == *corners.second) continue;
+    const Vec3 p = skin.position_m[v];
+    const float t = (p.x - low.x) / (high.x - low.x);
+    (p.y > low.y + t * (high.y - low.y) ? eye.upper : eye.lower).push_back(v);
+  }
+  std::sort(eye.upper.begin(), eye.upper.end(), by_x);
+  std::sort(eye.lower.begin(), eye.lower.end(), by_x);
+  eye.inside.assign(skin.size(), false);
+  for (const std::uint32_t v : eye.rim) eye.inside[v] = true;  // The rim stops the flood.
+  flood(skin, id(kLeftBehindRim), eye.inside);
+  for (const std::uint32_t v : eye.rim) eye.inside[v] = false;
+  return eye;
+}
+
 std::uint32_t Head::vertex_of(int group, int index) const {
   const auto found = point_vertex.find({group, index});
   if (found == point_vertex.end())
@@ -208,7 +211,7 @@ Head make_head(const Character& character, const BaseHuman& base) {
       head.transforms.jaw_center_m = joint.center_m;
   for (int side = 0; side < kSides; ++side) {
     const auto s = static_cast<std::size_t>(side);
-    head.eye[s] = make_eye(head, character, base, side);
+    head.eye[s] = make_eye(head.skin, character, base, side);
     head.lips[s] = make_lips(head, side);
   }
   return head;

@@ -62,6 +62,10 @@ struct Head {
   Vec3 place_of(int group, int index) const;
 };
 
+// Rim, lids and socket of one eye of the base human's skin; centre and radius are left to the
+// caller.
+Eye find_eye(const Skin& skin, const BaseHuman& base, int side);
+
 // Throws std::runtime_error when the head is not the base human's, or lacks what the FAT needs.
 Head make_head(const Character& character, const BaseHuman& base);
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/bake/face/follow.h"
 #include "assets/bake/face/movement.h"
+#include "assets/bake/face/open_lids.h"
 
 namespace caryatid::bake::fat {
 namespace {
@@ -144,6 +146,80 @@ void add_lids(const Head& head, const ReachOf& reach, std::vector<Movement>& out
       add_movements(head, fap, {0, range.high}, upper ? 6 : 2, field, out);
       add_movements(head, fap, {range.low, 0}, 2, field, out);
     }
+  }
+}
+
+namespace {
+
+// The lash helpers of the base, to which lashes are fitted, as a mesh whose vertices are `base_of`.
+Mesh lash_helpers(const BaseHuman& base, int side, std::span<const Vec3> base_m,
+                  std::vector<std::uint32_t>& base_of) {
+  const std::string stem = side == 0 ? "helper-l-eyelashes" : "helper-r-eyelashes";
+  Mesh mesh;
+  std::vector<std::uint32_t> local(base_m.size(), kNone);
+  for (const Quad& quad : base.quads()) {
+    if (!base.groups()[quad.group].starts_with(stem)) continue;
+    std::array<std::uint32_t, 4> q{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::uint32_t& v = local[quad.vertex[i]];
+      if (v == kNone) {
+        v = static_cast<std::uint32_t>(base_of.size());
+        base_of.push_back(quad.vertex[i]);
+        mesh.position_m.push_back(base_m[quad.vertex[i]]);
+      }
+      q[i] = v;
+    }
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+void open_lids(const BaseHuman& base, const LidPoints& points, float opening_m,
+               std::vector<Vec3>& base_m) {
+  Head head;
+  std::vector<std::array<std::uint32_t, 4>> quads;
+  const std::uint16_t body = base.group("body");
+  constexpr float kNeck_m = 0.59f;  // In the base's own rest frame.
+  for (const Quad& quad : base.quads())
+    if (quad.group == body && base.rest_m()[quad.vertex[0]].y > kNeck_m)
+      quads.push_back(quad.vertex);
+  head.skin = make_skin(base_m, quads);
+  for (const auto& [key, vertex] : points) {
+    head.point_m[key] = base_m[vertex];
+    head.point_vertex[key] = head.skin.of_base[vertex];
+  }
+  for (int side = 0; side < kSides; ++side) {
+    Eye& eye = head.eye[static_cast<std::size_t>(side)];
+    eye = find_eye(head.skin, base, side);
+    const std::uint16_t ball = base.group(side == 0 ? "helper-l-eye" : "helper-r-eye");
+    Vec3 low{1e9f}, high{-1e9f};
+    for (const Quad& quad : base.quads())
+      for (const std::uint32_t v : quad.vertex)
+        if (quad.group == ball) low = glm::min(low, base_m[v]), high = glm::max(high, base_m[v]);
+    eye.center_m = 0.5f * (low + high);
+  }
+  head.middle_x_m = 0.5f * (head.eye[0].center_m.x + head.eye[1].center_m.x);
+  for (int side = 0; side < kSides; ++side) {
+    const Eye& eye = head.eye[static_cast<std::size_t>(side)];
+    const std::uint32_t top = head.vertex_of(3, 1 + side), bottom = head.vertex_of(3, 3 + side);
+    const float wider_m =
+        opening_m - (head.skin.position_m[top].y - head.skin.position_m[bottom].y);
+    constexpr float kUpperShare = 0.7f;
+    const Closure upper = closure_of(head, side, true), lower = closure_of(head, side, false);
+    std::vector<Vec3> moved =
+        turned(head, eye, upper, share_for(head, eye, upper, top, kUpperShare * wider_m));
+    const std::vector<Vec3> below = turned(
+        head, eye, lower, share_for(head, eye, lower, bottom, -(1.0f - kUpperShare) * wider_m));
+    for (std::uint32_t v = 0; v < moved.size(); ++v) moved[v] += below[v];
+    std::vector<std::uint32_t> lash_of;
+    const Mesh lashes = lash_helpers(base, side, base_m, lash_of);
+    const Carriers carriers = carriers_of_lash(head, lashes);
+    for (std::uint32_t i = 0; i < lash_of.size(); ++i)
+      base_m[lash_of[i]] += followed(head, carriers[i], lashes.position_m[i], moved);
+    for (std::uint32_t v = 0; v < moved.size(); ++v) base_m[head.skin.base[v]] += moved[v];
   }
 }
 

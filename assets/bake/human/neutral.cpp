@@ -6,37 +6,11 @@
 #include <queue>
 #include <stdexcept>
 
+#include "assets/bake/face/open_lids.h"
 #include "assets/bake/human/mesh_tools.h"
 
 namespace caryatid::bake {
 namespace {
-
-// Opening of one eye as the neutral rules measure it.
-float opening_m(const std::vector<FeaturePointPlace>& places, const std::vector<Vec3>& p,
-                int side) {
-  const auto y = [&](int index) { return p[base_vertex_of(places, 3, index)].y; };
-  return side == 0 ? y(1) - y(3) : y(2) - y(4);
-}
-
-// Finds the share of a shape that brings the opening to `wanted_m`; shapes are nearly linear, so a
-// few secant steps settle it.
-void settle_lids(const BaseHuman& base, const std::vector<FeaturePointPlace>& places, int side,
-                 float wanted_m, std::vector<Vec3>& p) {
-  const std::string eye = side == 0 ? "left" : "right";
-  for (int i = 0; i < 4; ++i) {
-    const float now = opening_m(places, p, side);
-    if (std::abs(now - wanted_m) < 2e-5f) return;
-    const std::string shape =
-        "expression/units/caucasian/eye-" + eye + (now < wanted_m ? "-opened-up" : "-closure");
-    std::vector<Vec3> moved = p;
-    const TargetWeight trial{shape, 0.1f};
-    base.apply({&trial, 1}, moved);
-    const float slope = (opening_m(places, moved, side) - now) / 0.1f;
-    if (std::abs(slope) < 1e-5f) return;
-    const TargetWeight step{shape, std::clamp((wanted_m - now) / slope, -1.0f, 1.5f)};
-    base.apply({&step, 1}, p);
-  }
-}
 
 // Distance along edges from a set of seeds, up to a limit (Dijkstra), and the seed that is nearest.
 struct Reach {
@@ -111,7 +85,11 @@ float height_at(const std::vector<Vec3>& p, const std::vector<std::uint32_t>& co
 
 void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>& places,
                     float iris_diameter_m, std::vector<Vec3>& p) {
-  for (int side = 0; side < 2; ++side) settle_lids(base, places, side, iris_diameter_m, p);
+  fat::LidPoints lid_points;
+  for (const int index : {1, 2, 3, 4}) lid_points[{3, index}] = base_vertex_of(places, 3, index);
+  for (const int index : {1, 2, 3, 4, 5, 6})
+    lid_points[{4, index}] = base_vertex_of(places, 4, index);
+  fat::open_lids(base, lid_points, iris_diameter_m, p);
 
   std::vector<Quad> skin;
   for (const Quad& quad : base.quads())
