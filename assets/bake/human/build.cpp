@@ -174,7 +174,7 @@ class Builder {
     const std::string kind = name.substr(0, name.find('/'));
     pack::MaterialKind material = pack::MaterialKind::cloth;
     pack::ObjectRole role = pack::ObjectRole::clothes;
-    unsigned flags = 0;
+    unsigned flags = pack::kTwoSided;  // One sees into collars, sleeves and hems.
     if (kind == "hair") {
       material = pack::MaterialKind::hair, role = pack::ObjectRole::hair;
       flags = pack::kTwoSided | pack::kAlphaBlend;
@@ -184,8 +184,10 @@ class Builder {
       flags = pack::kTwoSided | pack::kAlphaBlend;
     } else if (kind == "teeth" || kind == "tongue") {
       material = pack::MaterialKind::mouth, role = pack::ObjectRole::mouth;
+      flags = 0;
     } else if (kind == "eyes") {
       material = pack::MaterialKind::eye, role = pack::ObjectRole::eye;
+      flags = 0;
     }
     const std::uint32_t m = add_material(material, flags, add_image(part_image(part)),
                                          part.recipe.gloss, part.recipe.shininess);

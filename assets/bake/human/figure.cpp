@@ -32,6 +32,32 @@ void settle_licence(Licence& licence) {
                            ") does not allow what this project does with it");
 }
 
+// See PartRecipe::drop_above_m. Skin that only the dropped pieces hid shows again.
+void drop_high_pieces(FittedPart& part, std::span<const Vec3> base_m) {
+  const auto neighbours = edge_neighbours(part.proxy.quads, part.position_m.size());
+  std::vector<bool> dropped(part.position_m.size(), false), seen(part.position_m.size(), false);
+  float top_m = 0;
+  for (std::uint32_t start = 0; start < seen.size(); ++start) {
+    if (seen[start]) continue;
+    std::vector<std::uint32_t> piece{start};
+    seen[start] = true;
+    float piece_top_m = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      piece_top_m = std::max(piece_top_m, part.position_m[piece[i]].y);
+      for (const std::uint32_t n : neighbours[piece[i]])
+        if (!seen[n]) seen[n] = true, piece.push_back(n);
+    }
+    if (piece_top_m > part.recipe.drop_above_m)
+      for (const std::uint32_t v : piece) dropped[v] = true;
+    else
+      top_m = std::max(top_m, piece_top_m);
+  }
+  std::erase_if(part.proxy.quads, [&](const Quad& quad) { return dropped[quad.vertex[0]]; });
+  constexpr float kOpening_m = 0.045f;  // How far below its top one can look into a shoe.
+  for (std::size_t v = 0; v < part.proxy.hides.size(); ++v)
+    if (base_m[v].y > top_m - kOpening_m) part.proxy.hides[v] = false;
+}
+
 }  // namespace
 
 const FittedPart* Figure::part(std::string_view kind) const {
@@ -92,12 +118,58 @@ Figure make_figure(const Recipe& recipe, const BaseHuman& base,
   return figure;
 }
 
-void stand(Figure& figure) {
-  const auto motions = rest_pose_motions(*figure.base, figure.base_m, ArmHang{});
+namespace {
+
+// Poses copies of base and parts.
+void pose(Figure& figure, const ArmHang& hang) {
+  const auto motions = rest_pose_motions(*figure.base, figure.base_m, hang);
   apply_motions(motions, figure.base->influence(), figure.base_m);
   for (std::size_t i = 0; i < motions.size(); ++i) figure.bone_head_m[i] = motions[i].head_to_m;
   for (FittedPart& part : figure.parts)
     apply_motions(motions, part.proxy.influence, part.position_m);
+}
+
+// Distance along x between the left hand's inner side and the outermost cloth or skin of hip and
+// thigh at its height; < 0 when the hand is inside.
+float hand_clearance_m(const Figure& figure) {
+  std::vector<bool> is_arm;
+  for (const Bone& bone : figure.base->bones()) {
+    const auto is = [&](const char* stem) { return bone.name.starts_with(stem); };
+    is_arm.push_back(is("upperarm") || is("lowerarm") || is("wrist") || is("finger") ||
+                     is("metacarpal") || is("shoulder") || is("clavicle"));
+  }
+  float low_m = 10, high_m = -10, inner_m = 10, outer_m = 0;
+  const auto& influence = figure.base->influence();
+  for (std::size_t v = 0; v < figure.base_m.size(); ++v) {
+    const std::string& bone = figure.base->bones()[influence[v].joint[0]].name;
+    if (!bone.ends_with(".L") || !(bone.starts_with("finger") || bone.starts_with("metacarpal")))
+      continue;
+    low_m = std::min(low_m, figure.base_m[v].y);
+    high_m = std::max(high_m, figure.base_m[v].y);
+    inner_m = std::min(inner_m, figure.base_m[v].x);
+  }
+  const auto look = [&](std::span<const Vec3> p, std::span<const Influence> by) {
+    for (std::size_t v = 0; v < p.size(); ++v)
+      if (p[v].y > low_m && p[v].y < high_m && !is_arm[by[v].joint[0]])
+        outer_m = std::max(outer_m, p[v].x);
+  };
+  for (const FittedPart& part : figure.parts) look(part.position_m, part.proxy.influence);
+  return inner_m - outer_m;
+}
+
+}  // namespace
+
+void stand(Figure& figure) {
+  constexpr float kClearance_m = 0.006f, kStep_rad = 0.02f;
+  const Figure before = figure;
+  ArmHang hang;
+  pose(figure, hang);
+  for (int i = 0; i < 12 && hand_clearance_m(figure) < kClearance_m; ++i) {
+    hang.upper_arm_rad += kStep_rad;
+    hang.forearm_rad += 0.5f * kStep_rad;
+    figure = before;
+    pose(figure, hang);
+  }
 
   // The lowest thing that is seen stands on the floor: shoes where there are any.
   float floor_m = std::numeric_limits<float>::max();
@@ -115,6 +187,8 @@ void stand(Figure& figure) {
   for (Vec3& p : figure.bone_head_m) p += shift;
   for (FittedPart& part : figure.parts)
     for (Vec3& p : part.position_m) p += shift;
+  for (FittedPart& part : figure.parts)
+    if (part.recipe.drop_above_m > 0) drop_high_pieces(part, figure.base_m);
 }
 
 }  // namespace caryatid::bake

@@ -191,6 +191,7 @@ Image render_preview(const Character& character, const PreviewView& view) {
   for (const bool blended : {false, true})
     for (const Object& object : character.objects) {
       const pack::Material& material = character.materials[object.material];
+      if (material.flags & pack::kCornea) continue;  // Clear; it only shines.
       if (((material.flags & pack::kAlphaBlend) != 0) != blended) continue;
       if (std::find(view.hide.begin(), view.hide.end(), object.name) != view.hide.end()) continue;
       const bool textured = view.textures && material.texture != pack::kNoTexture;

@@ -68,7 +68,8 @@ SkinRecipe read_skin(const toml::table& t) {
 }
 
 PartRecipe read_part(const toml::table& t) {
-  expect_keys(t, {"proxy", "texture", "tint", "saturation", "gloss", "shininess", "grow_m"});
+  expect_keys(t, {"proxy", "texture", "tint", "saturation", "gloss", "shininess", "grow_m",
+                  "drop_above_m"});
   PartRecipe p;
   p.proxy = text(t, "proxy");
   p.texture = text(t, "texture");
@@ -77,6 +78,7 @@ PartRecipe read_part(const toml::table& t) {
   p.gloss = number(t, "gloss", p.gloss);
   p.shininess = number(t, "shininess", p.shininess);
   p.grow_m = number(t, "grow_m", p.grow_m);
+  p.drop_above_m = number(t, "drop_above_m", p.drop_above_m);
   return p;
 }
 

@@ -47,6 +47,9 @@ struct PartRecipe {
   float gloss = 0.05f;
   float shininess = 16.0f;
   float grow_m = 0.0f;  // Pushed out along normals: outer layers over inner ones.
+  // Connected parts that reach above this height when the figure stands are left out: the socks of
+  // a shoe. 0: all stay.
+  float drop_above_m = 0.0f;
 };
 
 struct Recipe {

@@ -30,6 +30,7 @@ class Poser {
       : base_(base), base_m_(base_m), turn_(base.bones().size()), set_(base.bones().size()) {}
 
   Vec3 head(const std::string& bone) const { return base_.head(base_m_, bone); }
+  Vec3 along(const std::string& bone) const { return base_.tail(base_m_, bone) - head(bone); }
   void set(const std::string& bone, const Quat& turn) {
     turn_[base_.bone(bone)] = turn;
     set_[base_.bone(bone)] = true;
@@ -70,6 +71,35 @@ Mat3 hand_frame(const Poser& poser, const std::string& s, float side) {
   return {along, glm::cross(back, along), back};
 }
 
+// How a hand hangs: its turn, and the directions along the forearm, towards the thumb and out of
+// the back of the hand.
+struct Hand {
+  Quat turn;
+  Vec3 fore, thumb, out;
+};
+
+// Fingers side by side and a little bent; the thumb beside them.
+void pose_fingers(Poser& poser, const std::string& s, const Hand& hand) {
+  for (int finger = 2; finger <= 5; ++finger) {
+    const std::string name = "finger" + std::to_string(finger) + "-";
+    // Index to little finger fan out by a few degrees.
+    const float fan = 0.05f * (3.4f - static_cast<float>(finger));
+    Quat turn = hand.turn;
+    float bend = 0;
+    for (int bone = 1; bone <= 3; ++bone) {
+      bend += kFingerCurl_rad[bone - 1];
+      const std::string here = name + std::to_string(bone) + "." + s;
+      const Vec3 to = std::cos(bend) * (std::cos(fan) * hand.fore + std::sin(fan) * hand.thumb) -
+                      std::sin(bend) * hand.out;
+      turn = turn_between(turn * poser.along(here), to) * turn;
+      poser.set(here, turn);
+    }
+  }
+  const std::string thumb = "finger1-1." + s;
+  const Vec3 to = 0.80f * hand.fore + 0.55f * hand.thumb - 0.22f * hand.out;
+  poser.set(thumb, turn_between(hand.turn * poser.along(thumb), to) * hand.turn);
+}
+
 void pose_arm(Poser& poser, const std::string& s, float side, const ArmHang& hang) {
   const auto hanging = [&](float angle) {
     return Vec3{side * std::sin(angle), -std::cos(angle), 0.0f};
@@ -96,6 +126,7 @@ void pose_arm(Poser& poser, const std::string& s, float side, const ArmHang& han
   poser.set("lowerarm01." + s, turn_about(fore, 0.25f * twist) * forearm);
   poser.set("lowerarm02." + s, turn_about(fore, 0.65f * twist) * forearm);
   poser.set("wrist." + s, hand);
+  pose_fingers(poser, s, {hand, fore, {0, 0, 1}, out});
 }
 
 void pose_leg(Poser& poser, const std::string& s) {

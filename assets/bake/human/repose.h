@@ -9,12 +9,17 @@
 
 namespace caryatid::bake {
 
-// How far the arms hang from the body. Angles from the vertical, outwards.
+// How far the arms hang from the body. Angles from the vertical, outwards; figure.cpp opens them as
+// far as hips and skirt ask.
 struct ArmHang {
-  float upper_arm_rad = 0.12f;
-  float forearm_rad = 0.03f;
-  float clavicle_drop_rad = 0.05f;
+  float upper_arm_rad = 0.10f;
+  float forearm_rad = 0.02f;
+  float clavicle_drop_rad = 0.10f;
 };
+
+// Bend of a finger's three bones at rest, from the back of the hand towards the palm: hands that
+// hang are never flat. Small enough that finger BAPs still mean what they say.
+inline constexpr float kFingerCurl_rad[3] = {0.10f, 0.24f, 0.30f};
 
 // Rigid motion of every bone: p' = head_to + turn * (p - head_from).
 struct BoneMotion {
