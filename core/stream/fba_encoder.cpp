@@ -205,6 +205,28 @@ Status FbaEncoder::code_slot(std::size_t slot, std::int32_t target, bool intra,
   return {};
 }
 
+bool FbaEncoder::overflows(std::size_t slot, std::int32_t target) const {
+  const int step = step_of(coding_, slot, settings_.quantisers);
+  const std::int32_t level =
+      choose_level(settings_, slot, target - value_[slot], step, settings_.dead_zone);
+  const LevelRange range = levels_of(settings_, coding_, slot);
+  const RangeCodes& codes = settings_.range[slot];
+  return (level > range.inter_high && codes.inter_high == kMaxRangeCode) ||
+         (level < range.inter_low && codes.inter_low == kMaxRangeCode);
+}
+
+bool FbaEncoder::overflows(const FbaPlaneInput& plane) const {
+  for (int fap = 3; plane.face != nullptr && fap <= face::kFapCount; ++fap)
+    if (coding_.fap_mask.test(static_cast<std::size_t>(fap)) && plane.face->has(fap) &&
+        overflows(fap_slot(fap), whole(plane.face->get(fap))))
+      return true;
+  for (int bap = 1; plane.body != nullptr && bap <= body::kBapCountExtended; ++bap)
+    if (coding_.bap_mask.test(static_cast<std::size_t>(bap)) && plane.body->has(bap) &&
+        overflows(bap_slot(bap), whole(plane.body->get(bap))))
+      return true;
+  return false;
+}
+
 Status FbaEncoder::write_face(const face::FapFrame& frame, bool intra, BitWriter* out) {
   if (coding_.fap_mask.test(face::kFapViseme)) {
     const face::VisemeField& v = frame.viseme;
@@ -254,7 +276,7 @@ Status FbaEncoder::encode(const FbaPlaneInput& plane, BitWriter* out) {
   if (plane.face == nullptr && plane.body == nullptr)
     return status_of(Code::invalid_argument, FbaFault::bad_settings);
   const bool intra = plane.intra || (plane.face != nullptr && !coding_.face_known) ||
-                     (plane.body != nullptr && !coding_.body_known);
+                     (plane.body != nullptr && !coding_.body_known) || overflows(plane);
   if (intra && any_plane_ && settings_.plane_start_codes) write_code(kPlaneStart, out);
   const std::size_t begin = out->position();
   write_head(plane, intra, out);

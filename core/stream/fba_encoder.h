@@ -77,9 +77,10 @@ class FbaEncoder {
   // Other settings from the next plane on, which becomes intra for every object it has. Errors: as
   // begin(), and nothing changes.
   Status change(const FbaSettings& settings);
-  // One plane; the first one of an object (face, body) is made intra whatever the input says, with
-  // all objects that are given. invalid_argument: no object. out_of_capacity: model_pool_full, the
-  // next plane must be intra; output_full.
+  // One plane. It is made intra whatever the input says when it is the first one of an object
+  // (face, body), or when a parameter jumps farther than the widest inter range reaches.
+  // invalid_argument: no object. out_of_capacity: model_pool_full, the next plane must be intra;
+  // output_full.
   Status encode(const FbaPlaneInput& plane, BitWriter* out);
   // Stuffing and the end code.
   Status finish(BitWriter* out);
@@ -94,6 +95,8 @@ class FbaEncoder {
   void write_face_setup(BitWriter* out);
   void write_body_setup(BitWriter* out);
   void write_ranges(bool body, BitWriter* out) const;
+  bool overflows(std::size_t slot, std::int32_t target) const;
+  bool overflows(const FbaPlaneInput& plane) const;
   Status write_face(const face::FapFrame& frame, bool intra, BitWriter* out);
   Status write_body(const body::BapFrame& frame, bool intra, BitWriter* out);
   Status code_slot(std::size_t slot, std::int32_t target, bool intra, ArithmeticEncoder* coder);

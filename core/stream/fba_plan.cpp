@@ -23,39 +23,47 @@ bool is_intra(const FbaClip& clip, std::size_t frame) {
 // ranges are wide enough.
 struct Extremes {
   std::int32_t intra_high = 0, intra_low = 0, inter_high = 0, inter_low = 0;
+  // The same for intra planes at any frame, and whether a jump will ask for one.
+  std::int32_t any_high = 0, any_low = 0;
+  bool overflows = false;
 };
 
 template <class Frame>
 Extremes extremes_of(const FbaClip& clip, std::span<const Frame> frames, int number,
-                     std::size_t slot, int step, const FbaSettings& settings) {
-  Extremes extremes;
+                     std::size_t slot, int step, const FbaSettings& settings, int divisor) {
+  Extremes e;
   std::int32_t value = 0;
+  const std::int32_t reach = kMaxRangeCode * kRangeStep / divisor;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::int32_t target = frames[i].has(number) ? whole(frames[i].get(number)) : value;
+    const std::int32_t intra = choose_level(settings, slot, target, step, 0.5f);
+    e.any_high = std::max(e.any_high, intra);
+    e.any_low = std::min(e.any_low, intra);
     if (is_intra(clip, i)) {
-      const std::int32_t level = choose_level(settings, slot, target, step, 0.5f);
-      extremes.intra_high = std::max(extremes.intra_high, level);
-      extremes.intra_low = std::min(extremes.intra_low, level);
-      value = value_of(level, step);
-    } else {
-      const std::int32_t level =
-          choose_level(settings, slot, target - value, step, settings.dead_zone);
-      extremes.inter_high = std::max(extremes.inter_high, level);
-      extremes.inter_low = std::min(extremes.inter_low, level);
-      value += value_of(level, step);
+      e.intra_high = std::max(e.intra_high, intra);
+      e.intra_low = std::min(e.intra_low, intra);
+      value = value_of(intra, step);
+      continue;
     }
+    const std::int32_t level =
+        choose_level(settings, slot, target - value, step, settings.dead_zone);
+    e.inter_high = std::max(e.inter_high, level);
+    e.inter_low = std::min(e.inter_low, level);
+    e.overflows = e.overflows || level > reach || level < -reach;
+    value += value_of(level, step);
   }
-  return extremes;
+  return e;
 }
 
-RangeCodes codes_of(const Extremes& extremes, int divisor) {
+RangeCodes codes_of(const Extremes& extremes, int divisor, bool intra_anywhere) {
   const auto code = [divisor](std::int32_t level) {
     const std::int32_t steps = level < 0 ? -level : level;
     return static_cast<std::uint8_t>(
         std::min((steps * divisor + kRangeStep - 1) / kRangeStep, kMaxRangeCode));
   };
-  RangeCodes codes{code(extremes.intra_high), code(extremes.intra_low), code(extremes.inter_high),
-                   code(extremes.inter_low)};
+  RangeCodes codes{code(intra_anywhere ? extremes.any_high : extremes.intra_high),
+                   code(intra_anywhere ? extremes.any_low : extremes.intra_low),
+                   code(extremes.inter_high), code(extremes.inter_low)};
   // Zeros in both intra ranges would mean "never set" to deployed decoders.
   codes.intra_high = std::max<std::uint8_t>(codes.intra_high, 1);
   return codes;
@@ -140,22 +148,24 @@ void leave_out_restorable(const FbaClip& clip, float tolerance_mm, FbaSettings* 
 
 void set_ranges(const FbaClip& clip, FbaSettings* io_settings) {
   const FbaCoding coding = coding_of(*io_settings);
-  const body::BapQuantisers quantisers = io_settings->quantisers;
-  for (int fap = 3; fap <= face::kFapCount; ++fap) {
-    const std::size_t slot = fap_slot(fap);
-    io_settings->range[slot] = {1, 0, 0, 0};
-    if (!io_settings->fap_mask.test(static_cast<std::size_t>(fap))) continue;
-    const int step = step_of(coding, slot, quantisers);
-    io_settings->range[slot] = codes_of(extremes_of(clip, clip.face, fap, slot, step, *io_settings),
-                                        range_divisor(coding, false));
-  }
-  for (int bap = 1; bap <= body::kBapCountExtended; ++bap) {
-    const std::size_t slot = bap_slot(bap);
-    io_settings->range[slot] = {1, 0, 0, 0};
-    if (!io_settings->bap_mask.test(static_cast<std::size_t>(bap))) continue;
-    const int step = step_of(coding, slot, quantisers);
-    io_settings->range[slot] = codes_of(extremes_of(clip, clip.body, bap, slot, step, *io_settings),
-                                        range_divisor(coding, true));
+  const FbaSettings& settings = *io_settings;
+  // A jump of one parameter makes a whole plane intra: the others must be ready for it.
+  bool intra_anywhere = false;
+  for (const bool last_pass : {false, true}) {
+    for (std::size_t slot = kFieldSlots; slot < kFbaSlots; ++slot) {
+      const bool body = slot >= kBapSlotBase;
+      const int number = static_cast<int>(body ? slot - kBapSlotBase + 1 : slot - kFieldSlots + 3);
+      const auto n = static_cast<std::size_t>(number);
+      if (last_pass) io_settings->range[slot] = {1, 0, 0, 0};
+      if (!(body ? settings.bap_mask.test(n) : settings.fap_mask.test(n))) continue;
+      const int step = step_of(coding, slot, settings.quantisers);
+      const int divisor = range_divisor(coding, body);
+      const Extremes extremes =
+          body ? extremes_of(clip, clip.body, number, slot, step, settings, divisor)
+               : extremes_of(clip, clip.face, number, slot, step, settings, divisor);
+      intra_anywhere = intra_anywhere || extremes.overflows;
+      if (last_pass) io_settings->range[slot] = codes_of(extremes, divisor, intra_anywhere);
+    }
   }
 }
 

@@ -6,9 +6,9 @@
 namespace caryatid::bake {
 namespace {
 
-constexpr double kRates[] = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0};
+constexpr double kRates[] = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0};
 constexpr double kWidth = 720, kHeight = 420, kLeft = 70, kTop = 30, kRight = 20, kBottom = 60;
-constexpr double kLeastRate = 0.4, kMostRate = 20.0, kLeastError_mm = 0.01, kMostError_mm = 10.0;
+constexpr double kLeastRate = 0.4, kMostRate = 10.0, kLeastError_mm = 0.03, kMostError_mm = 10.0;
 
 double x_of(double rate) {
   const double t = std::log(rate / kLeastRate) / std::log(kMostRate / kLeastRate);
@@ -28,13 +28,13 @@ void put(std::string* out, const char* format, Values... values) {
 }
 
 void draw_grid(std::string* out) {
-  for (const double rate : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+  for (const double rate : {0.5, 1.0, 2.0, 4.0, 8.0}) {
     put(out, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#ddd'/>\n", x_of(rate), kTop,
         x_of(rate), kHeight - kBottom);
     put(out, "<text x='%.1f' y='%.1f' text-anchor='middle'>%g</text>\n", x_of(rate),
         kHeight - kBottom + 18, rate);
   }
-  for (const double error : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+  for (const double error : {0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
     put(out, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' stroke='#ddd'/>\n", kLeft, y_of(error),
         kWidth - kRight, y_of(error));
     put(out, "<text x='%.1f' y='%.1f' text-anchor='end'>%g</text>\n", kLeft - 6, y_of(error) + 4,
@@ -59,8 +59,8 @@ void draw_line(const std::vector<RatePoint>& points, double PointError::*which, 
     put(out, "<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", x_of(p.kbit_per_s),
         y_of(p.error.*which), colour);
   if (!points.empty())
-    put(out, "<text x='%.1f' y='%.1f' fill='%s'>%s</text>\n", x_of(points.front().kbit_per_s) + 8,
-        y_of(points.front().error.*which) - 8, colour, label);
+    put(out, "<text x='%.1f' y='%.1f' fill='%s'>%s</text>\n", x_of(points.back().kbit_per_s) + 10,
+        y_of(points.back().error.*which) + 5, colour, label);
 }
 
 }  // namespace

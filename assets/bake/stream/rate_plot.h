@@ -11,7 +11,7 @@ struct RatePoint {
   PointError error;
 };
 
-// Plans, encodes and decodes the face of the clip at rates from 0.5 to 16 kbit/s, as far as they
+// Plans, encodes and decodes the face of the clip at rates from 0.5 to 8 kbit/s, as far as they
 // are reached.
 std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intra_every);
 
