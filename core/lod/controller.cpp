@@ -242,14 +242,15 @@ BudgetController::Plan BudgetController::best_plan(int first_rung, float limit_u
   }
 }
 
-// The objects with their maxima lowered to `growth` times what is decided now.
+// The objects with their maxima lowered to what is decided now and `growth` of the full mesh.
 std::span<const ObjectNeed> BudgetController::cap(const SceneNeeds& needs, float growth,
                                                   Needs& storage) const {
   const std::size_t count = count_of(needs);
   for (std::size_t i = 0; i < count; ++i) {
     storage[i] = needs.objects[i];
-    const auto most =
-        static_cast<std::uint32_t>(growth * static_cast<float>(decision_.triangles[i]));
+    const auto now = static_cast<float>(decision_.triangles[i]);
+    const auto range = static_cast<float>(needs.objects[i].max_triangles);
+    const auto most = static_cast<std::uint32_t>(now + growth * std::max(now, range));
     storage[i].max_triangles =
         std::clamp(most, storage[i].min_triangles,
                    std::max(storage[i].min_triangles, storage[i].max_triangles));
@@ -282,7 +283,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   const bool eventful = stepped || approach_ > 1.01f || predicted > limit.deadline_us;
   if (since_change_s_ < 1.0f && !eventful) return false;
   Needs storage;
-  const std::span<const ObjectNeed> capped = cap(needs, 1.0f, storage);
+  const std::span<const ObjectNeed> capped = cap(needs, 0.0f, storage);
   Plan plan = best_plan(rung_, limit.plan_us, needs, capped);
   const bool hurry = late_ || lagging;
   bulk_ = false;
@@ -307,6 +308,26 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   return true;
 }
 
+// Clearly more triangles, or all that there are with time to spare.
+bool BudgetController::worth_refining(const Plan& goal, float limit_us,
+                                      const SceneNeeds& needs) const {
+  const std::size_t count = count_of(needs);
+  const std::uint32_t sum_now = total(std::span(decision_.triangles).first(count));
+  if (static_cast<float>(goal.triangle_sum) >= kRefineGain * static_cast<float>(sum_now))
+    return true;
+  const Work work = work_of(std::span(goal.triangles).first(count), goal.rung, needs);
+  return goal.triangle_sum > sum_now && predict(work) < 0.9f * limit_us;
+}
+
+bool BudgetController::moved_far(const Plan& goal, std::size_t count) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto now = static_cast<float>(decision_.triangles[i]);
+    const auto then = static_cast<float>(goal.triangles[i]);
+    if (std::abs(now - then) > std::max(kReshare * std::min(now, then), 100.0f)) return true;
+  }
+  return false;
+}
+
 bool BudgetController::refine(const SceneNeeds& needs) {
   if (since_change_s_ < wait_s_ || since_try_s_ < kTryEvery_s || thermal_ != ThermalLevel::normal ||
       late_)
@@ -327,21 +348,13 @@ bool BudgetController::refine(const SceneNeeds& needs) {
     change = Change::reshare;
   }
   if (!plan.comfortable) {
-    plan = plan_at(rung_, limit_us, 0.0f, needs, capped);
-    const std::uint32_t sum_now = total(now);
-    std::uint32_t most = 0;
-    for (std::size_t i = 0; i < count; ++i) most += needs.objects[i].max_triangles;
-    const bool complete = plan.triangle_sum >= most && sum_now < most;
-    if (!complete &&
-        static_cast<float>(plan.triangle_sum) < kRefineGain * static_cast<float>(sum_now)) {
+    const Plan goal = plan_at(rung_, limit_us, 0.0f, needs, needs.objects.first(count));
+    if (!worth_refining(goal, limit_us, needs)) {
+      if (!moved_far(goal, count)) return false;
       change = Change::reshare;
-      bool moved = false;
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto a = static_cast<float>(now[i]), b = static_cast<float>(plan.triangles[i]);
-        moved = moved || std::abs(a - b) > std::max(kReshare * std::min(a, b), 100.0f);
-      }
-      if (!moved) return false;
     }
+    plan = plan_at(rung_, limit_us, 0.0f, needs, capped);
+    if (plan.triangles == decision_.triangles) return false;
   }
   since_refine_s_ = 0.0f;
   adopt(plan, change, false);

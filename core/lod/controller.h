@@ -78,6 +78,8 @@ class BudgetController {
   std::span<const ObjectNeed> cap(const SceneNeeds& needs, float growth, Needs& storage) const;
   bool at_floor(const SceneNeeds& needs) const;
   bool reduce(const FrameSample& sample, const SceneNeeds& needs);
+  bool worth_refining(const Plan& goal, float limit_us, const SceneNeeds& needs) const;
+  bool moved_far(const Plan& goal, std::size_t count) const;
   bool refine(const SceneNeeds& needs);
   bool adjust_rate(const SceneNeeds& needs);
   void note_reduction();
