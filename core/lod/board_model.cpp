@@ -93,13 +93,16 @@ const BoardCosts* find_board(std::span<const char> name) {
 Terms cpu_terms(const BoardCosts& board, const Work& work) {
   return {board.cpu_fixed_us,
           board.cpu_vertex_ns * 1e-3f * static_cast<float>(work.vertices_deformed),
-          board.cpu_record_ns * 1e-3f * static_cast<float>(work.records), 0.0f};
+          board.cpu_record_ns * 1e-3f * static_cast<float>(work.records)};
 }
 
 Terms gpu_terms(const BoardCosts& board, const Work& work) {
-  const float shaded_ns = board.gpu_shaded_px_ns[static_cast<std::size_t>(work.shading)];
-  return {board.gpu_fixed_us, board.gpu_triangle_ns * 1e-3f * static_cast<float>(work.triangles),
-          board.gpu_target_px_ns * 1e-3f * work.target_px, shaded_ns * 1e-3f * work.shaded_px};
+  const auto tier = static_cast<std::size_t>(work.shading);
+  Terms terms{board.gpu_fixed_us,
+              board.gpu_triangle_ns * 1e-3f * static_cast<float>(work.triangles),
+              board.gpu_target_px_ns * 1e-3f * work.target_px};
+  terms[3 + tier] = board.gpu_shaded_px_ns[tier] * 1e-3f * work.shaded_px;
+  return terms;
 }
 
 FrameSample VirtualBoard::run(const Work& work, std::uint8_t frame_divisor,

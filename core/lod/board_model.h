@@ -31,11 +31,12 @@ std::span<const BoardCosts> boards();
 const BoardCosts* find_board(std::span<const char> name);
 
 // The terms of one stage, in microseconds.
-inline constexpr std::size_t kTermCount = 4;
+inline constexpr std::size_t kTermCount = 6;
 using Terms = std::array<float, kTermCount>;
-Terms cpu_terms(const BoardCosts& board, const Work& work);  // fixed, vertices, records, none
-Terms gpu_terms(const BoardCosts& board, const Work& work);  // fixed, triangles, target, shaded
-inline float sum(const Terms& t) { return t[0] + t[1] + t[2] + t[3]; }
+Terms cpu_terms(const BoardCosts& board, const Work& work);  // fixed, vertices, records
+Terms gpu_terms(const BoardCosts& board,
+                const Work& work);  // fixed, triangles, target, shaded by tier
+inline float sum(const Terms& t) { return t[0] + t[1] + t[2] + t[3] + t[4] + t[5]; }
 
 // A flip must be queued this long before the vblank that shall show it: commit, interrupt and wake.
 inline constexpr float kFlipLeadUs = 200.0f;

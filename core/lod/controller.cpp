@@ -111,33 +111,22 @@ void BudgetController::learn(const FrameSample& sample) {
   learn_gpu(sample, evidence || step > 1.0f);
   if (thermal_ == ThermalLevel::normal) {
     cool_cpu_ = cpu_.slowdown();
-    cool_gpu_ = gpu().slowdown();
+    cool_gpu_ = gpu_.slowdown();
   }
 }
 
 void BudgetController::learn_gpu(const FrameSample& sample, bool evidence) {
-  const auto tier = static_cast<std::size_t>(sample.drawn.shading);
-  if (!seen_[tier]) gpu_[tier] = gpu_[tier_];
-  seen_[tier] = true;
-  tier_ = tier;
   const Terms terms = gpu_terms(config_.prior, sample.drawn);
   if (sample.gpu_us != FrameSample::kUnknown) {
-    const float step = gpu_[tier].learn(terms, static_cast<float>(sample.gpu_us), late_, evidence);
+    const float step = gpu_.learn(terms, static_cast<float>(sample.gpu_us), late_, evidence);
     if (step > 1.0f) evidence_s_ = 1.0f;
-    for (std::size_t other = 0; step != 1.0f && other < gpu_.size(); ++other)
-      if (other != tier) gpu_[other].scale(step);
     learn_overhead(sample);
   } else if (sample.vblanks > 0) {
     const int periods = late_ ? sample.vblanks - 1 : sample.vblanks;
     const auto cpu_us = static_cast<float>(sample.cpu_us);
-    gpu_[tier].learn_bound(
-        terms, static_cast<float>(periods) * config_.vblank_us - kFlipLeadUs - cpu_us, late_);
+    gpu_.learn_bound(terms, static_cast<float>(periods) * config_.vblank_us - kFlipLeadUs - cpu_us,
+                     late_);
   }
-}
-
-const StageModel& BudgetController::gpu_for(Shading shading) const {
-  const auto tier = static_cast<std::size_t>(shading);
-  return gpu_[seen_[tier] ? tier : tier_];
 }
 
 // Late although both stages were in time: something between (commit, interrupt) costs more than we
@@ -157,17 +146,16 @@ float BudgetController::predict(const Work& work) const {
   const bool hot = thermal_ >= ThermalLevel::hot;
   const float cpu_factor =
       hot ? std::clamp(kThrottle * cool_cpu_ / cpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
-  const StageModel& gpu_model = gpu_for(work.shading);
   const float gpu_factor =
-      hot ? std::clamp(kThrottle * cool_gpu_ / gpu_model.slowdown(), 1.0f, kThrottle) : 1.0f;
+      hot ? std::clamp(kThrottle * cool_gpu_ / gpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
   return cpu_factor * cpu_.predict(cpu_terms(config_.prior, work)) +
-         gpu_factor * gpu_model.predict(gpu_terms(config_.prior, work)) + overhead_us_;
+         gpu_factor * gpu_.predict(gpu_terms(config_.prior, work)) + overhead_us_;
 }
 
 BudgetController::Limits BudgetController::limits(const Work& work) const {
   const float cpu_us = cpu_.predict(cpu_terms(config_.prior, work));
-  const float gpu_us = gpu_for(work.shading).predict(gpu_terms(config_.prior, work));
-  const float cpu_noise = cpu_us * cpu_.deviation(), gpu_noise = gpu_us * gpu().deviation();
+  const float gpu_us = gpu_.predict(gpu_terms(config_.prior, work));
+  const float cpu_noise = cpu_us * cpu_.deviation(), gpu_noise = gpu_us * gpu_.deviation();
   const float deviation =
       std::sqrt(cpu_noise * cpu_noise + gpu_noise * gpu_noise) / std::max(cpu_us + gpu_us, 1.0f);
   // Always the full rate: a lower one saves heat, it is not there to be filled with triangles.
@@ -206,8 +194,7 @@ BudgetController::Plan BudgetController::plan_at(int rung, float limit_us, float
   const std::size_t count = capped.size();
   Work one_triangle;
   one_triangle.triangles = 1000;
-  const float gpu_us = gpu_for(kRungs[static_cast<std::size_t>(rung)].shading).gain(1) *
-                       gpu_terms(config_.prior, one_triangle)[1] * 1e-3f;
+  const float gpu_us = gpu_.gain(1) * gpu_terms(config_.prior, one_triangle)[1] * 1e-3f;
   const float vertex_us = cpu_.gain(1) * config_.prior.cpu_vertex_ns * 1e-3f;
   std::array<float, kMaxObjects> triangle_us{};
   float wanted = 0.0f;
@@ -220,8 +207,8 @@ BudgetController::Plan BudgetController::plan_at(int rung, float limit_us, float
   const std::array<std::uint32_t, kMaxObjects> none{};
   // Anticipated throttling makes every term dearer, so it shrinks the budget instead.
   const Work bare = work_of(std::span(none).first(count), rung, needs);
-  const float plain = cpu_.predict(cpu_terms(config_.prior, bare)) +
-                      gpu_for(bare.shading).predict(gpu_terms(config_.prior, bare));
+  const float plain =
+      cpu_.predict(cpu_terms(config_.prior, bare)) + gpu_.predict(gpu_terms(config_.prior, bare));
   const float dearer = (predict(bare) - overhead_us_) / std::max(plain, 1.0f);
   const float budget = (limit_us - overhead_us_) / std::max(dearer, 1.0f) - plain;
   share_budget(capped, std::span(triangle_us).first(count), budget,
@@ -398,7 +385,7 @@ void BudgetController::note_reduction() {
 
 void BudgetController::adopt(const Plan& plan, Change change, bool at_once) {
   decision_.triangles = plan.triangles;
-  if (rung_ != plan.rung) gpu_[tier_].expect_change();
+  if (rung_ != plan.rung) gpu_.expect_change();
   rung_ = plan.rung;
   decision_.render_scale = kRungs[static_cast<std::size_t>(rung_)].render_scale;
   decision_.shading = kRungs[static_cast<std::size_t>(rung_)].shading;

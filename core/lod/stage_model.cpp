@@ -38,7 +38,9 @@ float StageModel::Run::mean_ratio() const {
 }
 
 float StageModel::predict(const Terms& x) const {
-  return gain_[0] * x[0] + gain_[1] * x[1] + gain_[2] * x[2] + gain_[3] * x[3];
+  float us = 0.0f;
+  for (std::size_t k = 0; k < kTermCount; ++k) us += gain_[k] * x[k];
+  return us;
 }
 
 float StageModel::deviation() const { return std::sqrt(variance_); }
@@ -69,12 +71,14 @@ float StageModel::learn(const Terms& x, float measured_us, bool late, bool evide
 }
 
 void StageModel::fit(const Terms& x, float predicted_us, float innovation_us) {
-  Terms px{};
-  for (std::size_t i = 0; i < kTermCount; ++i)
-    for (std::size_t j = 0; j < kTermCount; ++j) px[i] += covariance_[i * kTermCount + j] * x[j];
-  const float noise = variance_ * predicted_us * predicted_us;
-  const float scale_down =
-      1.0f / (x[0] * px[0] + x[1] * px[1] + x[2] * px[2] + x[3] * px[3] + noise);
+  Terms px{};  // Covariance times x; terms that are not drawn are skipped.
+  float excited = variance_ * predicted_us * predicted_us;
+  for (std::size_t j = 0; j < kTermCount; ++j) {
+    if (x[j] == 0.0f) continue;
+    for (std::size_t i = 0; i < kTermCount; ++i) px[i] += covariance_[i * kTermCount + j] * x[j];
+  }
+  for (std::size_t i = 0; i < kTermCount; ++i) excited += x[i] * px[i];
+  const float scale_down = 1.0f / excited;
   for (std::size_t i = 0; i < kTermCount; ++i) {
     gain_[i] = std::clamp(gain_[i] + px[i] * scale_down * innovation_us, kGainMin, kGainMax);
     for (std::size_t j = 0; j < kTermCount; ++j)

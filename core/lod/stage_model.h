@@ -7,9 +7,9 @@
 
 namespace caryatid::lod {
 
-// cost = gain[0] x[0] + .. + gain[3] x[3], where x are the terms by the board's prior profile (GPU:
-// fixed, triangles, target pixels, shaded pixels; CPU: fixed, vertices, records) and the gains
-// start at 1.
+// cost = sum of gain[k] x[k], where x are the terms by the board's prior profile (GPU: fixed,
+// triangles, target pixels, and fragments by shading tier, of which one is drawn at a time; CPU:
+// fixed, vertices, records) and the gains start at 1.
 //
 // Three things change a cost, and each has its own answer:
 // - Drift and a wrong prior: recursive least squares (a Kalman filter whose gains walk randomly),
@@ -24,7 +24,7 @@ namespace caryatid::lod {
 // - Noise: the deviation is tracked too and sets how much of a frame the controller leaves free.
 //
 // Gains stay in [1/8, 8], the deviation in [0.02, 0.12], whatever is fed in (0 and huge times
-// included). Size: 160 bytes. Cost: about 100 multiplications a frame. No libm beyond sqrt.
+// included). Size: 240 bytes. Cost: about 150 multiplications a frame. No libm beyond sqrt.
 class StageModel {
  public:
   // Microseconds. x: non-negative, at least one positive.
@@ -41,9 +41,6 @@ class StageModel {
   // 10 min at 60/s), three hopes in a row that came true halve it.
   void learn_bound(const Terms& x, float bound_us, bool late);
 
-  // Every term becomes `factor` times as dear: a step that was seen elsewhere.
-  void scale(float factor);
-
   // Something else is drawn from now on (another rung): believe the next frames more than usual.
   void expect_change();
 
@@ -54,7 +51,9 @@ class StageModel {
  private:
   static constexpr float kPrior = 0.09f;  // A profile's term is right to about 30 %.
   static constexpr std::array<float, kTermCount * kTermCount> diagonal(float v) {
-    return {v, 0, 0, 0, 0, v, 0, 0, 0, 0, v, 0, 0, 0, 0, v};
+    std::array<float, kTermCount * kTermCount> matrix{};
+    for (std::size_t i = 0; i < kTermCount; ++i) matrix[i * kTermCount + i] = v;
+    return matrix;
   }
   struct Run {  // CUSUM of one direction.
     float score = 0, sum = 0, largest = 0;
@@ -63,8 +62,9 @@ class StageModel {
     float mean_ratio() const;
   };
   void fit(const Terms& x, float predicted_us, float innovation_us);
+  void scale(float factor);
 
-  std::array<float, kTermCount> gain_{1.0f, 1.0f, 1.0f, 1.0f};
+  std::array<float, kTermCount> gain_{1, 1, 1, 1, 1, 1};
   std::array<float, kTermCount* kTermCount> covariance_ = diagonal(kPrior);
   float variance_ = 0.04f * 0.04f;
   float slowdown_ = 1.0f;

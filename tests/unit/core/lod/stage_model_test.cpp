@@ -35,12 +35,12 @@ TEST(StageModel, LearnsFromAWrongPrior) {
 }
 
 TEST(StageModel, TellsTheTermsApartWhenTheWorkVaries) {
-  const Terms truth{1.2f, 0.7f, 1.3f, 0.8f};
+  const Terms truth{1.2f, 0.7f, 1.3f, 0.8f, 1.4f, 0.9f};
   StageModel model;
   Random random(5);
   for (int i = 0; i < 20000; ++i) {
-    const Terms x{1000.0f, random.between(500, 6000), random.between(500, 4000),
-                  random.between(500, 6000)};
+    Terms x{1000.0f, random.between(500, 6000), random.between(500, 4000)};
+    x[3 + random.next() % 3] = random.between(500, 6000);
     float cost = 0;
     for (std::size_t k = 0; k < kTermCount; ++k) cost += truth[k] * x[k];
     model.learn(x, cost * noise(random, 0.04f), false, false);
