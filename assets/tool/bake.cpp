@@ -8,6 +8,7 @@
 
 #include "assets/bake/face/fat.h"
 #include "assets/bake/human/build.h"
+#include "assets/bake/light/occlusion.h"
 #include "assets/bake/pack/writer.h"
 #include "assets/tool/commands.h"
 
@@ -81,6 +82,8 @@ void bake_character(const BakeArgs& a) {
   const auto ranges =
       bake::fat::read_working_ranges(recipe_file.parent_path() / "fap_working_ranges.csv");
   bake::build_fat(character, base, ranges);
+  progress.step("occlusion");
+  bake::bake_occlusion(character);
   progress.step("simplify and pack");
   bake::PackReport report;
   const std::vector<std::byte> bytes = bake::write_pack(character, {}, &report);

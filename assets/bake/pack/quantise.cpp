@@ -19,6 +19,7 @@ pack::Vertex quantise(const VertexVersion& v, std::span<const std::uint16_t> pal
     out.position_m[i] = v.position_m[i];
     out.normal[i] = rounded<std::int8_t>(127.0f * v.normal[i], -127.0f, 127.0f);
   }
+  out.normal[3] = rounded<std::int8_t>(127.0f * v.occlusion, 0.0f, 127.0f);
   for (int i = 0; i < 2; ++i)
     out.uv[i] = rounded<std::uint16_t>(65535.0f * v.uv[i], 0.0f, 65535.0f);
   int left = 255;

@@ -173,7 +173,8 @@ void ObjectCollapse::weld() {
 void ObjectCollapse::find_versions() {
   const Mesh& m = object_.mesh;
   for (std::size_t v = 0; v < m.position_m.size(); ++v) {
-    versions_.push_back({m.position_m[v], m.normal[v], m.uv[v], m.influence[v], {}});
+    const float occlusion = m.occlusion.empty() ? 0.0f : m.occlusion[v];
+    versions_.push_back({m.position_m[v], m.normal[v], m.uv[v], occlusion, m.influence[v], {}});
     version_.push_back(static_cast<std::uint32_t>(v));
   }
   for (std::size_t channel = 0; channel < object_.moves.size(); ++channel)

@@ -14,6 +14,7 @@ struct VertexVersion {
   Vec3 position_m{0};
   Vec3 normal{0};
   Vec2 uv{0};
+  float occlusion = 0.0f;  // See Mesh::occlusion.
   Influence influence;
   struct ChannelMove {
     std::uint16_t channel = 0;

@@ -42,6 +42,7 @@ VertexVersion blend(const std::array<const VertexVersion*, 3>& from,
     out.position_m += w * from[i]->position_m;
     out.normal += w * from[i]->normal;
     out.uv += w * from[i]->uv;
+    out.occlusion += w * from[i]->occlusion;
     for (const VertexVersion::ChannelMove& m : from[i]->moves) {
       VertexVersion::ChannelMove& sum = moves[m.channel];
       sum.channel = m.channel;

@@ -1,0 +1,93 @@
+#include "assets/bake/light/occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "assets/bake/light/ray_tree.h"
+
+namespace caryatid::bake {
+namespace {
+
+constexpr int kRays = 96;
+constexpr float kReach_m = 0.25f;     // Beyond it light comes round anyway.
+constexpr float kLift_m = 0.0008f;    // Off the own surface.
+constexpr float kDeepest = 0.88f;     // Skin in the closed mouth or nostrils.
+constexpr float kHairOpacity = 0.6f;  // Strands let light through.
+
+bool stays_open(pack::ObjectRole role) {
+  return role == pack::ObjectRole::eye || role == pack::ObjectRole::lash ||
+         role == pack::ObjectRole::brow;
+}
+
+RayTree tree_of(const Character& c) {
+  std::vector<RayTree::Triangle> all;
+  for (const Object& o : c.objects) {
+    const bool clear = o.role == pack::ObjectRole::lash || o.role == pack::ObjectRole::brow ||
+                       (c.materials[o.material].flags & pack::kCornea) != 0;
+    if (clear) continue;
+    const float opacity = o.role == pack::ObjectRole::hair ? kHairOpacity : 1.0f;
+    for (const auto& t : o.mesh.triangles)
+      all.push_back(
+          {{o.mesh.position_m[t[0]], o.mesh.position_m[t[1]], o.mesh.position_m[t[2]]}, opacity});
+  }
+  return RayTree(std::move(all));
+}
+
+// Directions over the hemisphere about +Z, denser where a matt surface gathers more light.
+std::vector<Vec3> cosine_directions() {
+  std::vector<Vec3> out;
+  for (int i = 0; i < kRays; ++i) {
+    const float u = (static_cast<float>(i) + 0.5f) / kRays;
+    const float r = std::sqrt(u), angle = 2.39996323f * static_cast<float>(i);  // Golden angle.
+    out.push_back({r * std::cos(angle), r * std::sin(angle), std::sqrt(1.0f - u)});
+  }
+  return out;
+}
+
+float hidden_share(const RayTree& tree, const std::vector<Vec3>& directions, Vec3 position_m,
+                   Vec3 normal) {
+  const Vec3 side = std::abs(normal.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 x = glm::normalize(glm::cross(side, normal)), y = glm::cross(normal, x);
+  float sum = 0.0f;
+  for (const Vec3& d : directions) {
+    const Vec3 ray = d.x * x + d.y * y + d.z * normal;
+    const RayTree::Hit hit = tree.first_hit(position_m + kLift_m * normal, ray, kReach_m);
+    sum += hit.opacity * (1.0f - hit.distance_m / kReach_m);
+  }
+  return sum / static_cast<float>(directions.size());
+}
+
+// Depth behind the front teeth, from a little shade at the front to dark at the molars.
+void shade_mouth(Character& c) {
+  float front_m = -1e9f;
+  for (const Object& o : c.objects)
+    if (o.role == pack::ObjectRole::mouth)
+      for (const Vec3& p : o.mesh.position_m) front_m = std::max(front_m, p.z);
+  for (Object& o : c.objects) {
+    if (o.role != pack::ObjectRole::mouth) continue;
+    o.mesh.occlusion.resize(o.mesh.position_m.size());
+    for (std::size_t v = 0; v < o.mesh.position_m.size(); ++v) {
+      const float depth = (front_m - o.mesh.position_m[v].z - 0.004f) / 0.032f;
+      o.mesh.occlusion[v] = 0.22f + 0.68f * std::clamp(depth, 0.0f, 1.0f);
+    }
+  }
+}
+
+}  // namespace
+
+void bake_occlusion(Character& character) {
+  const RayTree tree = tree_of(character);
+  const std::vector<Vec3> directions = cosine_directions();
+  for (Object& o : character.objects) {
+    Mesh& m = o.mesh;
+    m.occlusion.assign(m.position_m.size(), 0.0f);
+    if (stays_open(o.role) || o.role == pack::ObjectRole::mouth) continue;
+    for (std::size_t v = 0; v < m.position_m.size(); ++v)
+      m.occlusion[v] =
+          std::min(hidden_share(tree, directions, m.position_m[v], m.normal[v]), kDeepest);
+  }
+  shade_mouth(character);
+}
+
+}  // namespace caryatid::bake
