@@ -295,7 +295,24 @@ void Kiosk::poll_buttons(const Tick& tick) {
   if (from_display.resized) (void)renderer_->resize(display_->width(), display_->height());
 }
 
+// Known before the levels are chosen: a camera that moves in asks for more detail at once.
+void Kiosk::aim_camera() {
+  const float aspect =
+      static_cast<float>(renderer_->width()) / static_cast<float>(renderer_->height());
+  const auto* left = pack::find_feature_point(person_.view(), 3, 5);
+  const auto* right = pack::find_feature_point(person_.view(), 3, 6);
+  scene::Subject subject;
+  subject.stature_m = person_.view().character->stature_m;
+  if (left != nullptr && right != nullptr)
+    subject.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
+                      0.5f * (left->position_m[1] + right->position_m[1]),
+                      0.5f * (left->position_m[2] + right->position_m[2])};
+  list_.camera = scene::make_camera(scene::framing(view_of(options_.view), subject), aspect,
+                                    options_.rotate_degrees);
+}
+
 void Kiosk::act(const Tick& tick) {
+  aim_camera();
   const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
   const face::FapFrame felt = emotion::expression(will.emotions);
   face::MixJob mix;
@@ -347,18 +364,7 @@ bool Kiosk::draw(const Tick& tick) {
   job.pack = &person_.view();
   job.meshes = person_.meshes();
   job.joints = person_.joints();
-  const float aspect =
-      static_cast<float>(renderer_->width()) / static_cast<float>(renderer_->height());
-  const auto* left = pack::find_feature_point(person_.view(), 3, 5);
-  const auto* right = pack::find_feature_point(person_.view(), 3, 6);
-  scene::Subject subject;
-  subject.stature_m = person_.view().character->stature_m;
-  if (left != nullptr && right != nullptr)
-    subject.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
-                      0.5f * (left->position_m[1] + right->position_m[1]),
-                      0.5f * (left->position_m[2] + right->position_m[2])};
-  job.camera = scene::make_camera(scene::framing(view_of(options_.view), subject), aspect,
-                                  options_.rotate_degrees);
+  job.camera = list_.camera;
   if (!fixed_) {
     job.render_scale = budget_->decision().render_scale;
     job.shading = budget_->decision().shading;

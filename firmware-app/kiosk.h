@@ -68,6 +68,7 @@ class Kiosk {
   bool frame(const Tick& tick);
   void poll_buttons(const Tick& tick);
   void load_more();
+  void aim_camera();
   void act(const Tick& tick);
   void choose_levels(const Tick& tick);
   bool draw(const Tick& tick);
