@@ -10,6 +10,7 @@
 #include "assets/bake/human/mesh_tools.h"
 #include "assets/bake/human/neutral.h"
 #include "assets/bake/human/skeleton.h"
+#include "assets/bake/texture/head_skin.h"
 #include "assets/bake/texture/image.h"
 #include "core/body/hanim.h"
 
@@ -88,6 +89,7 @@ class Builder {
       out_.rest_face[static_cast<std::size_t>(fap)] = value;
     limit_joints();
     place_feature_points(places_, out_);
+    paint_own_head();
     check_neutral(out_, kIrisToBall * figure_.eye_diameter_m());
     return std::move(out_);
   }
@@ -109,6 +111,18 @@ class Builder {
     material.shininess = shininess;
     out_.materials.push_back(material);
     return static_cast<std::uint32_t>(out_.materials.size() - 1);
+  }
+
+  // The head has a texture of its own; the rest of the body keeps the base's.
+  void paint_own_head() {
+    for (Object& object : out_.objects) {
+      if (object.role != pack::ObjectRole::head) continue;
+      pack::Material material = out_.materials[object.material];
+      material.texture =
+          add_image(paint_head(out_, recipe_.skin, out_.images[material.texture], object.mesh));
+      out_.materials.push_back(material);
+      object.material = static_cast<std::uint32_t>(out_.materials.size() - 1);
+    }
   }
 
   void add_skin() {
@@ -136,6 +150,11 @@ class Builder {
       object.name = kRegionNames[r];
       object.role = r == 0 ? pack::ObjectRole::head : pack::ObjectRole::body;
       object.material = material;
+      if (static_cast<Region>(r) == Region::legs && recipe_.skin.tights.x >= 0.0f) {
+        object.material = add_material(pack::MaterialKind::cloth, 0,
+                                       out_.materials[material].texture, 0.3f, 12.0f);
+        for (int k = 0; k < 3; ++k) out_.materials.back().tint[k] = recipe_.skin.tights[k];
+      }
       object.mesh = make_mesh(source, [&](const Quad& quad) {
         const bool covered = std::all_of(quad.vertex.begin(), quad.vertex.end(),
                                          [&](std::uint32_t v) { return hidden[v]; });
@@ -161,10 +180,23 @@ class Builder {
     const auto file = part.recipe.texture.empty() ? part.proxy.textures.front()
                                                   : part.proxy.folder / part.recipe.texture;
     LinearImage image = to_linear(read_image(file));
+    // Brows and lashes are drawn black: they take the colour of the hair whole, softened a little.
+    const bool hairs =
+        part.proxy.name.starts_with("eyebrows") || part.proxy.name.starts_with("eyelashes");
     for (Vec4& t : image.texel) {
+      if (hairs) {
+        t = Vec4{part.recipe.tint, part.recipe.softness * t.w};
+        continue;
+      }
       const float grey = glm::dot(Vec3{t}, Vec3{0.2126f, 0.7152f, 0.0722f});
       t = Vec4{glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint, t.w};
     }
+    if (hairs) bleed_alpha(image);
+    // Small things on the screen need no more than this.
+    const std::string kind = part.proxy.name.substr(0, part.proxy.name.find('/'));
+    const std::uint32_t most = kind == "hair" || kind == "eyes" || kind == "clothes" ? 512 : 256;
+    if (image.width > most || image.height > most)
+      image = resize(image, std::min(image.width, most), std::min(image.height, most));
     return to_srgb(image, file.stem().string());
   }
 

@@ -52,7 +52,7 @@ Macro read_macro(const toml::table& t) {
 
 SkinRecipe read_skin(const toml::table& t) {
   expect_keys(t, {"texture", "tint", "lips", "lips_strength", "stubble", "lash_line", "eye_shadow",
-                  "blush", "hair_shadow", "scalp"});
+                  "blush", "hair_shadow", "scalp", "tights"});
   SkinRecipe s;
   s.texture = text(t, "texture");
   s.tint = triple(t, "tint", s.tint);
@@ -63,18 +63,20 @@ SkinRecipe read_skin(const toml::table& t) {
   s.eye_shadow = number(t, "eye_shadow", s.eye_shadow);
   s.blush = number(t, "blush", s.blush);
   s.hair_shadow = triple(t, "hair_shadow", s.hair_shadow);
+  s.tights = triple(t, "tights", s.tights);
   s.scalp = number(t, "scalp", s.scalp);
   return s;
 }
 
 PartRecipe read_part(const toml::table& t) {
-  expect_keys(t, {"proxy", "texture", "tint", "saturation", "gloss", "shininess", "grow_m",
-                  "drop_above_m"});
+  expect_keys(t, {"proxy", "texture", "tint", "saturation", "softness", "gloss", "shininess",
+                  "grow_m", "drop_above_m"});
   PartRecipe p;
   p.proxy = text(t, "proxy");
   p.texture = text(t, "texture");
   p.tint = triple(t, "tint", p.tint);
   p.saturation = number(t, "saturation", p.saturation);
+  p.softness = number(t, "softness", p.softness);
   p.gloss = number(t, "gloss", p.gloss);
   p.shininess = number(t, "shininess", p.shininess);
   p.grow_m = number(t, "grow_m", p.grow_m);

@@ -31,6 +31,7 @@ struct SkinRecipe {
   float eye_shadow = 0.0f;
   float blush = 0.15f;
   Vec3 hair_shadow{0.12f, 0.08f, 0.06f};  // Scalp beneath the hair, sRGB.
+  Vec3 tights{-1.0f};                     // Multiplies the legs' skin, linear; negative: bare legs.
   float scalp = 0.0f;                     // 0..1, how much the scalp takes hair_shadow.
 };
 
@@ -42,8 +43,9 @@ struct EyeRecipe {
 struct PartRecipe {
   std::string proxy;    // "hair/ponytail01"
   std::string texture;  // Below the proxy's folder; empty: its first.
-  Vec3 tint{1.0f};
+  Vec3 tint{1.0f};      // Linear; for brows and lashes their colour.
   float saturation = 1.0f;
+  float softness = 0.85f;  // Of brows and lashes: their greatest alpha.
   float gloss = 0.05f;
   float shininess = 16.0f;
   float grow_m = 0.0f;  // Pushed out along normals: outer layers over inner ones.

@@ -173,7 +173,8 @@ void Writer::put_object(std::uint32_t index) {
   ObjectOptions options;
   options.pose_weight = options_.pose_weight;
   options.base_triangles = static_cast<std::uint32_t>(
-      options_.base_fraction * static_cast<double>(source.mesh.triangles.size()));
+      options_.base_fraction[static_cast<std::size_t>(source.role)] *
+      static_cast<double>(source.mesh.triangles.size()));
   ObjectHistory history = simplify_object(source, options);
   if (history.versions.size() >= mesh::kNoVersion || history.max_triangle_count > 0xFFFF)
     refuse(source.name, "it has too many vertices or triangles for 16-bit numbers; split it");

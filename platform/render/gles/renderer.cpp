@@ -180,6 +180,7 @@ void GlesRenderer::draw_floor_shadows(const scene::DrawList& list) {
   glUniformMatrix4fv(glGetUniformLocation(program, "u_view_projection"), 1, GL_FALSE,
                      glm::value_ptr(view_projection_));
   glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   for (const scene::FloorShadow& shadow : list.floor_shadows) {
     const Vec3 c = shadow.center_m;
     glUniform3f(glGetUniformLocation(program, "u_center"), c.x, c.y, c.z);
