@@ -120,6 +120,24 @@ Status FbaDecoder::next(FbaPlane* plane, face::FapFrame* io_face, body::BapFrame
   return {};
 }
 
+// Quick refusal of what cannot be the masks of a face, or a body: nearly every bit position.
+bool FbaDecoder::plausible_masks(BitReader bits, bool face) const {
+  const std::uint32_t quantiser = bits.bits(5);
+  const bool known = face ? coding_.face_known : coding_.body_known;
+  if (known && quantiser != (face ? coding_.fap_quant : coding_.bap_quant_index)) return false;
+  const int groups = face ? face::kFapGroupCount : body::kBapGroupCount;
+  for (int group = 1; group <= groups; ++group) {
+    if (bits.bit() != 1) return false;
+    const std::uint32_t type = bits.bits(2);
+    if (!face && type == 2) return false;
+    const face::FapGroup faps = face ? face::fap_group(group) : face::FapGroup{};
+    const int size =
+        face ? faps.last - faps.first + 1 : static_cast<int>(body::bap_group(group).size());
+    if (type == 1 || type == 2) bits.bits(size);
+  }
+  return true;
+}
+
 // After damage nothing tells where planes begin. A start code does; else a bit position counts when
 // a whole intra head with all its markers can be read there and it says what is known already, or
 // brings all four sets of ranges (72 more markers).
@@ -129,11 +147,7 @@ bool FbaDecoder::plausible_intra(std::size_t position) {
   if (bits.bit() != 1) return false;
   bits.seek(position);
   if (!read_head(&bits, &plane).ok() || !(plane.face || plane.body)) return false;
-  // The marker before the first group, before anything costly.
-  const std::size_t setup = bits.position();
-  bits.seek(setup + 5);
-  if (bits.bit() != 1) return false;
-  bits.seek(setup);
+  if (!plausible_masks(bits, plane.face)) return false;
   pending_ = coding_;
   pending_changed_ = true;
   if (plane.face) {

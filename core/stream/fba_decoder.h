@@ -80,6 +80,7 @@ class FbaDecoder {
   Status pass_codes(bool* out_ended);
   Status search_intra();
   bool plausible_intra(std::size_t position);
+  bool plausible_masks(BitReader bits, bool face) const;
   Status decode_plane(BitReader* bits, FbaPlane* plane);
   Status read_head(BitReader* bits, FbaPlane* plane) const;
   Status read_face_setup(BitReader* bits);
