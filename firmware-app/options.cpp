@@ -28,7 +28,7 @@ usage: caryatid [OPTIONS]
   --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w
                          (default), pi3, pi4, mali450, gc7000
   --duration S           stop after S seconds
-  --play FILE            play a .fap or .bap text file instead of the programme
+  --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of it
   --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
   --metrics FILE         JSON lines, one a frame
   --seed N               another idle life (default 1)

@@ -1,5 +1,7 @@
 #include "firmware-app/player.h"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -19,13 +21,19 @@ bool ends_with(const std::string& text, const char* end) {
   return text.size() >= n && text.compare(text.size() - n, n, end) == 0;
 }
 
+bool is_pipe(const std::string& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
 }  // namespace
 
 bool Player::open(const std::string& path, std::string* out_error) {
+  if (path == "-" || ends_with(path, ".fba") || is_pipe(path)) return stream_.open(path, out_error);
   name_ = path;
   is_body_ = ends_with(path, ".bap");
   if (!is_body_ && !ends_with(path, ".fap")) {
-    *out_error = path + ": not a .fap or .bap file; convert it with caryatid-tool fba";
+    *out_error = path + ": not a .fap, .bap or .fba; convert it with caryatid-tool fba";
     return false;
   }
   std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -79,15 +87,27 @@ void Player::advance(std::uint32_t frame, Reader* reader, Frame* out) {
   while (next_frame_ <= frame && reader->next(out).ok()) ++next_frame_;
 }
 
+// Fields of FAPs 1 and 2 become low-level FAPs.
+void Player::expand(const face::FapFrame& raw) {
+  faps_ = raw;
+  face::expand_viseme(faps_);
+  emotion::expand_expression(faps_);
+  has_face_ = true;
+}
+
 void Player::seek(double time_s) {
+  if (stream_.active()) {
+    stream_.seek(time_s);
+    if (stream_.faps() != nullptr) expand(*stream_.faps());
+    return;
+  }
   const double position = std::floor(time_s * fps_ + 1e-6);
   const auto frame = static_cast<std::uint32_t>(std::fmod(position, frame_count_));
   if (is_body_) return advance(frame, &bap_reader_, &baps_);
   advance(frame, &fap_reader_, &raw_faps_);
-  faps_ = raw_faps_;
-  face::expand_viseme(faps_);
-  emotion::expand_expression(faps_);
+  expand(raw_faps_);
   face::fill_from_partners(&faps_);
+  face::limit_to_coding_range(&faps_);
 }
 
 }  // namespace caryatid::app

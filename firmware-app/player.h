@@ -1,6 +1,6 @@
 #pragma once
-// --play: a .fap or .bap text file of any tool, played at its own frame rate in place of the
-// programme.
+// --play: a .fap or .bap text file of any tool, or an .fba stream, played at its own frame rate in
+// place of the programme.
 #include <memory>
 #include <string>
 
@@ -8,21 +8,26 @@
 #include "core/face/fap.h"
 #include "core/stream/bap_text.h"
 #include "core/stream/fap_text.h"
+#include "firmware-app/stream_file.h"
 
 namespace caryatid::app {
 
 class Player {
  public:
-  // Reads the whole file and checks every frame before anything is shown. False: one line
+  // Text: reads the whole file and checks every frame before anything is shown. Streams (.fba, a
+  // named pipe, "-"): see StreamFile. False: one line
   // "FILE:LINE: what; cure".
   bool open(const std::string& path, std::string* out_error);
-  bool active() const { return size_ > 0; }
+  bool active() const { return size_ > 0 || stream_.active(); }
 
   // Advances to `time_s` since the start; starts over after the last frame. No allocation.
   void seek(double time_s);
-  // The frames to show; nullptr when the file is of the other kind.
-  const face::FapFrame* faps() const { return is_body_ ? nullptr : &faps_; }
-  const body::BapFrame* baps() const { return is_body_ ? &baps_ : nullptr; }
+  // The frames to show; nullptr when the file has nothing (yet) of the kind.
+  const face::FapFrame* faps() const { return has_face_ ? &faps_ : nullptr; }
+  const body::BapFrame* baps() const {
+    if (stream_.active()) return stream_.baps();
+    return is_body_ ? &baps_ : nullptr;
+  }
   double fps() const { return fps_; }
   std::uint32_t frame_count() const { return frame_count_; }
 
@@ -31,12 +36,15 @@ class Player {
   bool check(Reader reader, Frame frame, std::string* out_error);
   template <class Reader, class Frame>
   void advance(std::uint32_t frame, Reader* reader, Frame* out);
+  void expand(const face::FapFrame& raw);
   std::span<const char> text() const { return {text_.get(), size_}; }
 
   std::string name_;
   std::unique_ptr<char[]> text_;
   std::size_t size_ = 0;
   bool is_body_ = false;
+  bool has_face_ = false;
+  StreamFile stream_;
   double fps_ = 25.0;
   std::uint32_t frame_count_ = 0, next_frame_ = 0;
   stream::FapTextReader fap_reader_{{}};

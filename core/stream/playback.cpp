@@ -33,12 +33,13 @@ Status FbaPlayback::decode_one() {
   return status;
 }
 
-void FbaPlayback::schedule() {
+void FbaPlayback::schedule(double time_s) {
   const double period_s = 1.0 / decoder_.rate().hertz();
   const double gap_s = decoder_.time_s() - stream_s_;
   stream_s_ = decoder_.time_s();
-  if (any_plane_) due_s_ += gap_s >= 0.0 && gap_s <= kLongestGap_s ? gap_s : period_s;
-  any_plane_ = true;
+  due_s_ += gap_s >= 0.0 && gap_s <= kLongestGap_s ? gap_s : period_s;
+  if (starved_ && due_s_ < time_s) due_s_ = time_s;
+  starved_ = false;
   waiting_ = true;
 }
 
@@ -65,13 +66,14 @@ bool FbaPlayback::advance(double time_s) {
     }
     const Status status = decode_one();
     if (status.ok()) {
-      schedule();
+      schedule(time_s);
     } else if (status.code != Code::not_ready) {
       last_fault_ = status;
     } else {
       // A plane longer than the whole buffer will never be complete.
       const bool need_more = status.detail == static_cast<std::uint16_t>(FbaFault::need_more);
       ended_ = !need_more || filled_ == buffer_.size();
+      starved_ = true;
       return changed;
     }
   }

@@ -34,6 +34,8 @@ class FbaPlayback {
   bool advance(double time_s);
   // Nothing more will change.
   bool ended() const { return ended_; }
+  // When the plane after the last one would be due: the end of playing, once ended().
+  double next_due_s() const { return due_s_ + 1.0 / decoder_.rate().hertz(); }
 
   const face::FapFrame& face() const { return face_; }
   const body::BapFrame& body() const { return body_; }
@@ -45,7 +47,7 @@ class FbaPlayback {
 
  private:
   Status decode_one();
-  void schedule();
+  void schedule(double time_s);
 
   std::span<std::byte> buffer_;
   std::size_t filled_ = 0;
@@ -56,7 +58,7 @@ class FbaPlayback {
   bool waiting_ = false;   // A decoded plane waits for its time.
   double due_s_ = 0.0;     // Of the plane that waits, or the last one.
   double stream_s_ = 0.0;  // Its time by the stream.
-  bool any_plane_ = false;
+  bool starved_ = true;    // Bytes were missing when the last plane was looked for.
   FbaPlane plane_;
   face::FapFrame next_face_, face_;
   body::BapFrame next_body_, body_;
