@@ -114,6 +114,11 @@ void light(vec3 n, vec3 v, float open, out vec3 diffuse, out vec3 specular) {
   vec3 wrap = vec3(0.15);
   vec3 reach = vec3(open);
 #endif
+#if KIND == 1
+  // The upper lid and its lashes shade the ball below them, the corners see less light.
+  shade = mix(0.42, 1.0, 1.0 - smoothstep(0.02, 0.5, n.y)) * mix(0.6, 1.0, facing);
+  reach = vec3(shade);
+#endif
   diffuse = u_key_color * wrapped(key, wrap) * shade +
             u_fill_color * wrapped(dot(n, u_fill_direction), wrap) * shade + sky * reach +
             u_rim_color * wrapped(dot(n, u_rim_direction), wrap) * open;
@@ -131,7 +136,7 @@ void light(vec3 n, vec3 v, float open, out vec3 diffuse, out vec3 specular) {
   float spark = highlight(n, v, u_key_direction, 120.0);
   float window = highlight(n, v, u_fill_direction, 60.0);
   specular = u_surface.x * (u_key_color * min(spark * 0.12, 1.0) + u_fill_color * window * 0.04);
-  specular += sky * (0.02 + 0.3 * graze);
+  specular += sky * ((0.02 + 0.3 * graze) * shade);
 #elif KIND == 2
   // Strands run down over the head: their tangent is the way down along the surface.
   vec3 t = normalize(vec3(0.0, -1.0, 0.08) + n * (n.y + 0.15));
@@ -140,8 +145,7 @@ void light(vec3 n, vec3 v, float open, out vec3 diffuse, out vec3 specular) {
   float shine = pow(across, u_surface.y) * u_surface.x;
   float along_rim = dot(t, normalize(u_rim_direction + v));
   float rim_shine = pow(max(1.0 - along_rim * along_rim, 0.0), 6.0) * (1.0 - facing);
-  specular = (u_key_color * shine * lit * 0.22 + u_rim_color * rim_shine * 0.25 * open) *
-             (0.35 + u_tint.rgb * 0.65);
+  specular = u_key_color * (shine * lit) + u_rim_color * (rim_shine * open);
 #elif KIND == 3
   float broad = highlight(n, v, u_key_direction, u_surface.y);
   specular = u_key_color * lit * u_surface.x * 0.04 * broad;
@@ -175,6 +179,8 @@ vec3 expose(vec3 c) {
 void keep(float alpha) {
 #if PASS == 1
   if (alpha < 0.55) discard;
+#elif PASS == 2 && KIND == 5
+  if (alpha < 0.02) discard;  // Lashes and brows lie flat on what they cover: one pass will do.
 #elif PASS == 2
   if (alpha < 0.02 || alpha >= 0.55) discard;
 #endif
@@ -204,6 +210,9 @@ void main() {
   diffuse *= u_tint.rgb;
 #else
   vec3 diffuse = v_diffuse, specular = v_specular;
+#endif
+#if KIND == 2
+  specular *= albedo * 1.1 + 0.012;  // Light that has passed through a strand takes its colour.
 #endif
 #if PASS == 3
   gl_FragColor = vec4(to_srgb(expose(specular)), 1.0);

@@ -102,7 +102,10 @@ bool make_scene_program(std::size_t kind, std::size_t tier, std::size_t pass, Pr
 
 bool needs_pass(const pack::Material& material, Pass pass) {
   if ((material.flags & pack::kCornea) != 0) return pass == Pass::glint;
-  if ((material.flags & pack::kAlphaBlend) != 0) return pass == Pass::core || pass == Pass::edge;
+  if ((material.flags & pack::kAlphaBlend) != 0) {
+    const bool flat = material.kind == pack::MaterialKind::lash;
+    return pass == Pass::edge || (pass == Pass::core && !flat);
+  }
   return pass == Pass::opaque;
 }
 
