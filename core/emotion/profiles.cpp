@@ -18,8 +18,8 @@ constexpr std::array kAnger = {
     ProfileEntry{12, -60, 30, kQualitative, 1},  ProfileEntry{13, -60, 30, kQualitative, 1},
     ProfileEntry{16, -50, 20, kQualitative, 1},  ProfileEntry{17, -40, 20, kQualitative, 1},
     ProfileEntry{18, 60, 30, kQualitative, 1},   ProfileEntry{19, -120, 40, kQualitative, 1},
-    ProfileEntry{20, -120, 40, kQualitative, 1}, ProfileEntry{31, -83, 48, kMeasured, 1},
-    ProfileEntry{32, -85, 51, kMeasured, 1},     ProfileEntry{33, -149, 40, kMeasured, 1},
+    ProfileEntry{20, -120, 40, kQualitative, 1}, ProfileEntry{31, -83, 48, kMeasured, 0.4f},
+    ProfileEntry{32, -85, 51, kMeasured, 0.4f},     ProfileEntry{33, -149, 40, kMeasured, 1},
     ProfileEntry{34, -144, 39, kMeasured, 1},    ProfileEntry{35, -66, 35, kMeasured, 0},
     ProfileEntry{36, -70, 38, kMeasured, 0},     ProfileEntry{37, 57, 28, kMeasured, 1},
     ProfileEntry{38, 58, 31, kMeasured, 1},      ProfileEntry{61, 30, 15, kQualitative, 1},
@@ -51,10 +51,10 @@ constexpr std::array kSadness = {
 constexpr std::array kJoy = {
     ProfileEntry{4, -271, 110, kMeasured, -0.8f},   ProfileEntry{5, -60, 40, kQualitative, 1},
     ProfileEntry{6, 117, 49, kMeasured, 1},         ProfileEntry{7, 117, 49, kMeasured, 1},
-    ProfileEntry{12, 250, 80, kQualitative, 0.6f},  ProfileEntry{13, 250, 80, kQualitative, 0.6f},
+    ProfileEntry{12, 250, 80, kQualitative, 1},  ProfileEntry{13, 250, 80, kQualitative, 1},
     ProfileEntry{19, 177.8f, 93.1f, kMeasured, -1}, ProfileEntry{20, 169.4f, 85.4f, kMeasured, -1},
     ProfileEntry{21, 76.2f, 39.9f, kMeasured, 1},   ProfileEntry{22, 72.6f, 36.6f, kMeasured, 1},
-    ProfileEntry{33, 24, 22, kMeasured, 1},         ProfileEntry{34, 25, 22, kMeasured, 1},
+    ProfileEntry{33, 24, 22, kMeasured, -1},         ProfileEntry{34, 25, 22, kMeasured, -1},
     ProfileEntry{41, 150, 50, kQualitative, 1},     ProfileEntry{42, 150, 50, kQualitative, 1},
     ProfileEntry{53, 117, 49, kMeasured, 1},        ProfileEntry{54, 117, 49, kMeasured, 1},
 };

@@ -116,7 +116,7 @@ Vec3 followed(const Head& head, const Carrier& carrier, Vec3 position_m,
   for (std::size_t i = 0; i < 4; ++i) shift += carrier.weight[i] * displacement[carrier.skin[i]];
   if (carrier.eye < 0) {
     // The cards of a brow are coarser than the skin that bulges beneath them.
-    constexpr float kLift = 0.06f;
+    constexpr float kLift = 0.10f;
     Vec3 out{0};
     for (std::size_t i = 0; i < 4; ++i) out += carrier.weight[i] * head.normal[carrier.skin[i]];
     return shift + kLift * glm::length(shift) * out;

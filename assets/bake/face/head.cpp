@@ -152,6 +152,16 @@ void find_points(const Character& character, Head& head) {
 
 }  // namespace
 
+float brow_line_m(const Head& head, int side, Vec3 p) {
+  const Vec3 inner = head.place_of(4, 1 + side), middle = head.place_of(4, 3 + side),
+             outer = head.place_of(4, 5 + side);
+  const float x = head.lateral(p, side), xi = head.lateral(inner, side),
+              xm = head.lateral(middle, side), xo = head.lateral(outer, side);
+  const float t = x < xm ? (x - xi) / (xm - xi) : (x - xm) / (xo - xm);
+  const float along = std::clamp(t, 0.0f, 1.0f);
+  return x < xm ? glm::mix(inner.y, middle.y, along) : glm::mix(middle.y, outer.y, along);
+}
+
 Eye find_eye(const Skin& skin, const BaseHuman& base, int side) {
   const auto id = [&](std::uint32_t left) {
     return on_skin(skin, side == 0 ? left : mirrored(base, left));

@@ -62,6 +62,9 @@ struct Head {
   Vec3 place_of(int group, int index) const;
 };
 
+// Height of the line through a brow's three feature points at the lateral place of p.
+float brow_line_m(const Head& head, int side, Vec3 p);
+
 // Rim, lids and socket of one eye of the base human's skin; centre and radius are left to the
 // caller.
 Eye find_eye(const Skin& skin, const BaseHuman& base, int side);

@@ -44,15 +44,8 @@ float step(float t) {
 
 // Height of the lower edge of a brow above a point.
 float under_brow(const Head& head, int side, Vec3 p) {
-  const Vec3 inner = head.place_of(4, 1 + side), middle = head.place_of(4, 3 + side),
-             outer = head.place_of(4, 5 + side);
-  const float x = head.lateral(p, side), xi = head.lateral(inner, side),
-              xm = head.lateral(middle, side), xo = head.lateral(outer, side);
-  const float t = x < xm ? (x - xi) / (xm - xi) : (x - xm) / (xo - xm);
-  const float along = std::clamp(t, 0.0f, 1.0f);
-  const float y = x < xm ? glm::mix(inner.y, middle.y, along) : glm::mix(middle.y, outer.y, along);
   constexpr float kHalfBrow_m = 0.004f;
-  return y - kHalfBrow_m - p.y;
+  return brow_line_m(head, side, p) - kHalfBrow_m - p.y;
 }
 
 // Turn and growth of the rim at x, linear between its vertices, 0 at the corners.

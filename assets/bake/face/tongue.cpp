@@ -63,6 +63,7 @@ std::vector<TongueMove> tongue_moves(const Character& character, const Head& hea
       for (const float end : {reach(fap).low, reach(fap).high}) {
         if (end == 0.0f) continue;
         TongueMove move{o, {static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f}, {}};
+        if (fap == 3) move.channel.to = 400.0f;  // Flat by then; the jaw goes on.
         const float amount = end * metres_per_unit(head, fap);
         for (std::uint32_t i = 0; i < tongue.mesh.position_m.size(); ++i)
           if (const Vec3 d = displace(tongue.mesh.position_m[i], amount); glm::length(d) > 5e-6f)
@@ -74,6 +75,13 @@ std::vector<TongueMove> tongue_moves(const Character& character, const Head& hea
     add(44, [&](Vec3 p, float m) { return Vec3(0, m * tip_share(tongue, p), 0); });
     add(45, [&](Vec3 p, float m) { return Vec3(0, 0, m * tip_share(tongue, p)); });
     add(46, [&](Vec3 p, float m) { return Vec3(0, m * body_share(tongue, p), 0); });
+    // It lies lower in an open mouth: the jaw takes it along, and it flattens besides.
+    const float open_m = 400.0f * metres_per_unit(head, 3);
+    add(3, [&](Vec3 p, float drop_m) {
+      constexpr float kFlatter = 0.4f;
+      const float share = kFlatter * std::min(drop_m / open_m, 1.0f);
+      return Vec3(0, -share * (p.y - tongue.low.y), 0);
+    });
     add(47, [&](Vec3 p, float angle) { return rolled(tongue, p, angle); });
   }
   return out;
