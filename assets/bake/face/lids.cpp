@@ -96,7 +96,7 @@ std::vector<Vec3> turned(const Head& head, const Eye& eye, const Closure& closur
     const Vec3 p = head.skin.position_m[v];
     const Polar from = polar(p, eye.center_m);
     const float angle = from.angle_rad + share * closure.turn[v];
-    const float radius = from.radius_m + share * closure.growth[v];
+    const float radius = from.radius_m + std::max(share, 0.0f) * closure.growth[v];
     out[v] = Vec3(p.x, eye.center_m.y + radius * std::sin(angle),
                   eye.center_m.z + radius * std::cos(angle)) -
              p;
@@ -109,7 +109,7 @@ float share_for(const Head& head, const Eye& eye, const Closure& closure, std::u
                 float amount_m) {
   const Polar from = polar(head.skin.position_m[point], eye.center_m);
   const auto lift = [&](float share) {
-    const float radius = from.radius_m + share * closure.growth[point];
+    const float radius = from.radius_m + std::max(share, 0.0f) * closure.growth[point];
     return radius * std::sin(from.angle_rad + share * closure.turn[point]) -
            from.radius_m * std::sin(from.angle_rad);
   };

@@ -38,6 +38,20 @@ void assemble(const Skin& skin, Sparse& laplacian, std::vector<double>& area) {
   laplacian.setFromTriplets(entries.begin(), entries.end());
 }
 
+void check_reach(const Skin& skin, std::span<const std::uint32_t> given) {
+  std::vector<bool> seen(skin.size(), false);
+  std::vector<std::uint32_t> open(given.begin(), given.end());
+  while (!open.empty()) {
+    const std::uint32_t v = open.back();
+    open.pop_back();
+    if (seen[v]) continue;
+    seen[v] = true;
+    open.insert(open.end(), skin.neighbours[v].begin(), skin.neighbours[v].end());
+  }
+  if (std::find(seen.begin(), seen.end(), false) != seen.end())
+    throw std::runtime_error("smooth field: part of the skin touches no given vertex");
+}
+
 }  // namespace
 
 struct SmoothFields::System {
@@ -57,6 +71,7 @@ SmoothFields::~SmoothFields() = default;
 
 SmoothFields::SmoothFields(const Skin& skin, std::span<const std::uint32_t> given, int stiffness)
     : system_(std::make_unique<System>()) {
+  check_reach(skin, given);
   System& s = *system_;
   s.given.assign(given.begin(), given.end());
   s.free_index.assign(skin.size(), 0);
@@ -92,7 +107,7 @@ SmoothFields::SmoothFields(const Skin& skin, std::span<const std::uint32_t> give
   s.coupling.setFromTriplets(outer.begin(), outer.end());
   s.factor.compute(matrix);
   if (s.factor.info() != Eigen::Success)
-    throw std::runtime_error("smooth field: part of the skin touches no given vertex");
+    throw std::runtime_error("smooth field: the system cannot be solved");
 }
 
 std::vector<Vec3> SmoothFields::solve(std::span<const Vec3> values) const {
