@@ -9,6 +9,7 @@
 #include "assets/bake/face/fat.h"
 #include "assets/bake/human/build.h"
 #include "assets/bake/light/occlusion.h"
+#include "assets/bake/pack/small.h"
 #include "assets/bake/pack/writer.h"
 #include "assets/tool/commands.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 struct BakeArgs {
   std::string recipe, out, base;
-  bool licences = false;
+  bool licences = false, small = false;
 };
 
 // Says what is under way: on a terminal at once, in a pipe nothing.
@@ -86,7 +87,13 @@ void bake_character(const BakeArgs& a) {
   bake::bake_occlusion(character);
   progress.step("simplify and pack");
   bake::PackReport report;
-  const std::vector<std::byte> bytes = bake::write_pack(character, {}, &report);
+  bake::PackOptions options;
+  if (a.small) {
+    character = bake::small_character(character, 64);
+    options.refine = false;
+    options.base_fraction = {0.12, 0.35, 0.50, 0.22, 0.30, 0.05, 1.0, 1.0};
+  }
+  const std::vector<std::byte> bytes = bake::write_pack(character, options, &report);
   std::ofstream file(a.out, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
@@ -108,6 +115,8 @@ void add_bake(CLI::App& app) {
   character->add_option("--base", a->base,
                         "Folder of the base human (default: where cross/host.sh puts it)");
   character->add_flag("--licences", a->licences, "Print the licence of every source");
+  character->add_flag("--small", a->small,
+                      "Head and shoulders without refinements: the agent's built-in face");
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");
   character->callback([a] { bake_character(*a); });

@@ -172,10 +172,16 @@ void Writer::put_object(std::uint32_t index) {
     if (p.object == index) source.locked.push_back(p.vertex);
   ObjectOptions options;
   options.pose_weight = options_.pose_weight;
-  options.base_triangles = static_cast<std::uint32_t>(
-      options_.base_fraction[static_cast<std::size_t>(source.role)] *
-      static_cast<double>(source.mesh.triangles.size()));
+  options.base_triangles =
+      static_cast<std::uint32_t>(options_.base_fraction[static_cast<std::size_t>(source.role)] *
+                                 static_cast<double>(source.mesh.triangles.size()));
   ObjectHistory history = simplify_object(source, options);
+  if (!options_.refine) {
+    history.splits.clear();
+    history.versions.resize(history.base_vertex_count);
+    history.max_vertex_count = history.base_vertex_count;
+    history.max_triangle_count = static_cast<std::uint32_t>(history.base_triangles.size());
+  }
   if (history.versions.size() >= mesh::kNoVersion || history.max_triangle_count > 0xFFFF)
     refuse(source.name, "it has too many vertices or triangles for 16-bit numbers; split it");
   const std::vector<std::uint16_t> palette = palette_of(history, source.name);

@@ -21,6 +21,7 @@ struct PackOptions {
   // Refinements arrive in so many stages, each about as many triangles as all before.
   std::uint32_t stages = 4;
   double pose_weight = 0.5;  // See ObjectOptions.
+  bool refine = true;        // false: the base part alone, for the built-in face.
 };
 
 // What went where, for --report and the log of a bake.
