@@ -10,3 +10,4 @@ endif()
 # So that benchmarks never rot; the long ones are run by hand.
 add_test(NAME bench_lod_step COMMAND caryatid-bench --filter lod/step)
 add_test(NAME bench_stream COMMAND caryatid-bench --filter stream/decode/talking)
+add_test(NAME bench_face COMMAND caryatid-bench --filter face/)
