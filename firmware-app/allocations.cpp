@@ -14,12 +14,18 @@ void count() {
 }  // namespace
 
 // Names are the linker's: --wrap=X resolves X to __wrap_X and __real_X to X.
+// operator new(std::size_t) is _Znwm or _Znwj, as std::size_t is unsigned long or unsigned int.
+#if __SIZEOF_SIZE_T__ == 8
+#define CARYATID_NEW(name) name##m
+#else
+#define CARYATID_NEW(name) name##j
+#endif
 extern "C" {
 void* __real_malloc(std::size_t bytes);
 void* __real_calloc(std::size_t count, std::size_t bytes);
 void* __real_realloc(void* block, std::size_t bytes);
-void* __real__Znwm(std::size_t bytes);
-void* __real__Znam(std::size_t bytes);
+void* CARYATID_NEW(__real__Znw)(std::size_t bytes);
+void* CARYATID_NEW(__real__Zna)(std::size_t bytes);
 
 void* __wrap_malloc(std::size_t bytes) {
   count();
@@ -33,13 +39,13 @@ void* __wrap_realloc(void* block, std::size_t bytes) {
   count();
   return __real_realloc(block, bytes);
 }
-void* __wrap__Znwm(std::size_t bytes) {
+void* CARYATID_NEW(__wrap__Znw)(std::size_t bytes) {
   count();
-  return __real__Znwm(bytes);
+  return CARYATID_NEW(__real__Znw)(bytes);
 }
-void* __wrap__Znam(std::size_t bytes) {
+void* CARYATID_NEW(__wrap__Zna)(std::size_t bytes) {
   count();
-  return __real__Znam(bytes);
+  return CARYATID_NEW(__real__Zna)(bytes);
 }
 }
 

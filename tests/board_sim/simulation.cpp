@@ -192,7 +192,7 @@ void Simulation::count(const lod::FrameSample& sample, const lod::LodDecision& d
                         now > last_scene_us_ + 3 * kSecond && now > 10 * kSecond;
     if (steady) {
       std::uint32_t recent = 0;
-      for (std::uint64_t i = 0; i < std::min<std::uint64_t>(change_count_, change_us_.size()); ++i)
+      for (std::size_t i = 0; i < std::min<std::size_t>(change_count_, change_us_.size()); ++i)
         recent += change_us_[i] + kSecond > now;
       out.most_changes_in_a_second = std::max(out.most_changes_in_a_second, recent);
     }

@@ -84,7 +84,7 @@ class Simulation {
   int calm_frames_ = 0, level_ = 20;
   std::uint32_t late_after_step_ = 0, counted_steps_ = 0, counted_sequence_ = 0;
   std::array<std::uint64_t, 64> change_us_{};
-  std::uint64_t change_count_ = 0;
+  std::size_t change_count_ = 0;
 };
 
 }  // namespace caryatid::sim

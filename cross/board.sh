@@ -1,0 +1,133 @@
+#!/usr/bin/env bash
+# Caryatid for boards: cross-compiled on a Debian 12 PC, its tests run by user-mode emulation.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usage() {
+  cat <<'TEXT'
+usage: cross/board.sh build [arm64|armhf] [bookworm|trixie]   cross-compile the agent
+       cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   the same, and run the board code's tests
+
+Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
+~/.cache/caryatid; bookworm has libgpiod 1.6, trixie libgpiod 2.
+The program is build/cross-ARCH-RELEASE/bin/caryatid.
+
+example: cross/board.sh unit armhf
+TEXT
+}
+
+# For the machine that compiles.
+packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-certificates)
+# For the board: what caryatid and its tests link to.
+libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libgpiod-dev
+  libhidapi-dev libasound2-dev libglm-dev libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev
+  libbenchmark-dev)
+cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
+
+say() { printf '%s\n' "caryatid: $*"; }
+fail() {
+  printf '%s\n' "caryatid: $*" >&2
+  exit 1
+}
+
+install_packages() {
+  local missing=() name root=()
+  for name in "${packages[@]}"; do
+    dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null | grep -qx installed ||
+      missing+=("$name")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null ||
+      fail "as root run: apt-get install --no-install-recommends ${missing[*]}"
+    root=(sudo)
+  fi
+  say "installing ${missing[*]}"
+  "${root[@]}" apt-get update -qq
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# The board's libraries, unpacked and never run. Its name holds a hash of what it was made from.
+make_sysroot() {
+  local names scratch key mode=()
+  names="${libraries[*]} $stdcxx"
+  key=$(printf '%s' "$names" | sha256sum | cut -c1-12)
+  sysroot="$cache/sysroot-$release-$arch-$key"
+  [ -d "$sysroot" ] && return 0
+  mkdir -p "$cache"
+  scratch=$(mktemp -d "$cache/sysroot.XXXXXX")
+  [ "$(id -u)" -eq 0 ] && mode=(--mode=root)
+  say "unpacking the libraries of Debian $release for $arch"
+  mmdebstrap --quiet --variant=extract "${mode[@]}" --skip=check/qemu --architectures="$arch" \
+    --include="${names// /,}" "$release" "$scratch" http://deb.debian.org/debian \
+    >"$cache/sysroot.log" 2>&1 ||
+    fail "no sysroot of $release for $arch; $cache/sysroot.log says why"
+  mv -T "$scratch" "$sysroot"
+}
+
+build() {
+  install_packages
+  make_sysroot
+  say "building for $arch, Debian $release"
+  cmake --preset "$preset" -B "$folder" -DCARYATID_SYSROOT="$sysroot" >"$folder.log" 2>&1 ||
+    { tail -n 40 "$folder.log" >&2; fail "configuring failed"; }
+  ninja -C "$folder" --quiet || fail "building failed"
+  say "built $folder/bin/caryatid"
+}
+
+# A replay must have the same bits on the board as here.
+compare_hashes() {
+  local here=build/cross-pc
+  cmake --preset host-release -B "$here" -DCARYATID_HOST_TOOLS=OFF >"$here.log" 2>&1 ||
+    { tail -n 40 "$here.log" >&2; fail "configuring failed"; }
+  ninja -C "$here" --quiet caryatid-hashes || fail "building failed"
+  "$here/bin/caryatid-hashes" >"$here/hashes.txt"
+  "$emulator" -L "$sysroot" "$folder/bin/caryatid-hashes" >"$folder/hashes.txt"
+  diff "$here/hashes.txt" "$folder/hashes.txt" || fail "$arch and this PC compute different bits"
+  say "$arch computes the same face, body and pose as this PC: $(tr '\n' ' ' <"$folder/hashes.txt")"
+}
+
+arch=${2:-arm64}
+release=${3:-bookworm}
+case "$arch" in
+  arm64)
+    preset=cross-aarch64
+    emulator=qemu-aarch64-static
+    packages+=(g++-aarch64-linux-gnu)
+    ;;
+  armhf)
+    preset=cross-armhf
+    emulator=qemu-arm-static
+    packages+=(g++-arm-linux-gnueabihf)
+    ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+case "$release" in
+  # The compiler is Debian 12's for both, so are its C++ headers; a newer runtime is compatible.
+  bookworm) stdcxx=libstdc++-12-dev ;;
+  trixie) stdcxx=libstdc++-12-dev ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+folder="build/cross-$arch-$release"
+mkdir -p build
+
+case "${1:-}" in
+  build) build ;;
+  unit)
+    build
+    compare_hashes
+    ctest --test-dir "$folder" --output-on-failure -j "$(nproc)"
+    ;;
+  -h | --help | help) usage ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac

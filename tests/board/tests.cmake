@@ -1,0 +1,4 @@
+# The hashes that all machines must agree on; here only that a run repeats itself.
+add_executable(caryatid-hashes ${CMAKE_CURRENT_LIST_DIR}/hashes.cpp)
+target_link_libraries(caryatid-hashes PRIVATE caryatid_agent caryatid_flags)
+add_test(NAME hashes_repeat COMMAND caryatid-hashes)
