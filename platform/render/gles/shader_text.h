@@ -127,10 +127,10 @@ void light(vec3 n, vec3 v, float open, out vec3 diffuse, out vec3 specular) {
   float lit = clamp(key * 4.0 + 0.5, 0.0, 1.0) * shade;
 #if KIND == 0
   // A broad sheen of the skin's surface under a narrow one of its oil.
-  float broad = highlight(n, v, u_key_direction, u_surface.y * 0.2);
+  float broad = highlight(n, v, u_key_direction, u_surface.y * 0.3);
   float oily = highlight(n, v, u_key_direction, u_surface.y);
   float fresnel = 0.028 + 0.5 * graze;
-  specular = u_key_color * lit * u_surface.x * fresnel * (0.9 * broad + 0.6 * oily);
+  specular = u_key_color * lit * u_surface.x * fresnel * (0.6 * broad + 0.6 * oily);
   specular += open * (sky + u_rim_color * max(dot(n, u_rim_direction), 0.0)) * (0.25 * graze);
 #elif KIND == 1
   float spark = highlight(n, v, u_key_direction, 120.0);
