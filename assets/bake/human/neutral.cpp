@@ -59,6 +59,8 @@ std::vector<std::uint32_t> lip_contour(const std::vector<std::vector<std::uint32
     float best_cost = 1e9f;
     for (const std::uint32_t n : neighbours[at]) {
       if (std::abs(p[n].x) <= std::abs(p[at].x) + 1e-6f && n != corner) continue;
+      // Never past the corner: from there the walk would go on over the cheek.
+      if (std::abs(p[n].x) > std::abs(p[corner].x) - 1e-5f && n != corner) continue;
       const Vec3 to = glm::normalize(aim - p[at]), go = glm::normalize(p[n] - p[at]);
       if (const float cost = 1.0f - glm::dot(to, go); cost < best_cost) best_cost = cost, best = n;
     }
