@@ -8,6 +8,7 @@ namespace caryatid::tool {
 void add_bake(CLI::App& app);
 void add_fba(CLI::App& app);
 void add_gait(CLI::App& app);
+void add_plot(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sheet(CLI::App& app);
 void add_simplify(CLI::App& app);

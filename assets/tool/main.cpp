@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   add_bake(app);
   add_fba(app);
   add_gait(app);
+  add_plot(app);
   add_render(app);
   add_sheet(app);
   add_simplify(app);

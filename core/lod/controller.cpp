@@ -141,15 +141,20 @@ void BudgetController::learn_overhead(const FrameSample& sample) {
   since_unexplained_s_ = 0.0f;
 }
 
+float BudgetController::predict_now(const Work& work) const {
+  return cpu_.predict(cpu_terms(config_.prior, work)) +
+         gpu_.predict(gpu_terms(config_.prior, work)) + overhead_us_;
+}
+
 // While hot, plans for the clocks that throttling will bring, less what has already come.
 float BudgetController::predict(const Work& work) const {
-  const bool hot = thermal_ >= ThermalLevel::hot;
-  const float cpu_factor =
-      hot ? std::clamp(kThrottle * cool_cpu_ / cpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
-  const float gpu_factor =
-      hot ? std::clamp(kThrottle * cool_gpu_ / gpu_.slowdown(), 1.0f, kThrottle) : 1.0f;
-  return cpu_factor * cpu_.predict(cpu_terms(config_.prior, work)) +
-         gpu_factor * gpu_.predict(gpu_terms(config_.prior, work)) + overhead_us_;
+  if (thermal_ < ThermalLevel::hot) return predict_now(work);
+  const auto factor = [](float cool, float slowdown) {
+    return std::clamp(kThrottle * cool / slowdown, 1.0f, kThrottle);
+  };
+  return factor(cool_cpu_, cpu_.slowdown()) * cpu_.predict(cpu_terms(config_.prior, work)) +
+         factor(cool_gpu_, gpu_.slowdown()) * gpu_.predict(gpu_terms(config_.prior, work)) +
+         overhead_us_;
 }
 
 BudgetController::Limits BudgetController::limits(const Work& work) const {
@@ -262,7 +267,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   drawn.triangles = std::max(work.triangles, sample.drawn.triangles);
   drawn.vertices_deformed = std::max(work.vertices_deformed, sample.drawn.vertices_deformed);
   drawn.shaded_px /= approach_;  // As it is, not as it will be.
-  const bool lagging = predict(drawn) > limit.hurry_us;
+  const bool lagging = predict_now(drawn) > limit.hurry_us;
   if ((predicted <= limit.reduce_us && !lagging) || at_floor(needs)) return false;
   // One change a second unless something has happened: a step, a moving camera, a frame beyond
   // hope.
@@ -282,7 +287,7 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
     next.vertices_deformed = std::max(next.vertices_deformed, drawn.vertices_deformed);
     next.shaded_px /= approach_;
     next.records = kRecordsMin;
-    if (predict(next) <= limit.reduce_us) break;
+    if (predict_now(next) <= limit.reduce_us) break;
     if (plan.rung + 1 == static_cast<int>(kRungs.size())) {
       bulk_ = true;  // One long frame is better than many late ones.
       break;
@@ -404,7 +409,7 @@ void BudgetController::pace(const FrameSample& sample, const SceneNeeds& needs) 
   decision_.limit_us = limit.plan_us;
   work.triangles = std::max(work.triangles, sample.drawn.triangles);
   work.vertices_deformed = std::max(work.vertices_deformed, sample.drawn.vertices_deformed);
-  const float drawn_us = predict(work);
+  const float drawn_us = predict_now(work);
   if (drawn_us > limit.hurry_us) decision_.cover_wait_ms = decision_.morph_ms = 0;
   const float record_us = std::max(cpu_.gain(2) * config_.prior.cpu_record_ns * 1e-3f, 0.02f);
   const float room = 0.8f * (limit.reduce_us - drawn_us) / record_us;

@@ -66,6 +66,7 @@ class BudgetController {
   void learn(const FrameSample& sample);
   void learn_overhead(const FrameSample& sample);
   void learn_gpu(const FrameSample& sample, bool evidence);
+  float predict_now(const Work& work) const;
   float predict(const Work& work) const;
   Limits limits(const Work& work) const;
   Work work_of(std::span<const std::uint32_t> triangles, int rung, const SceneNeeds& needs) const;

@@ -226,7 +226,7 @@ Outcome Simulation::run(const std::function<void(const Trace&)>& watch) {
     hash = (hash ^ (sample.time_us + work.triangles)) * 1099511628211ull;
     if (watch)
       watch({static_cast<double>(time_us) * 1e-6, static_cast<double>(sample.cpu_us + gpu_us),
-             work.triangles, 0, decision->render_scale,
+             static_cast<double>(sample.cpu_us), work.triangles, decision->render_scale,
              sample.vblanks > scenario_.vblanks_per_frame, disturbances_.throttled(),
              sample.thermal, decision->change});
   }

@@ -43,7 +43,8 @@ struct Outcome {
 struct Trace {
   double time_s;
   double frame_us;  // CPU + GPU as they were.
-  std::uint32_t triangles, decided_triangles;
+  double cpu_us;
+  std::uint32_t triangles;
   float render_scale;
   bool late, throttled;
   lod::ThermalLevel thermal;

@@ -4,3 +4,5 @@ target_link_libraries(caryatid_board_sim PUBLIC caryatid_lod PRIVATE caryatid_fl
 add_executable(board_sim_test board_sim/board_sim_test.cpp)
 target_link_libraries(board_sim_test PRIVATE caryatid_board_sim caryatid_flags GTest::gtest_main)
 add_test(NAME board_sim_test COMMAND board_sim_test)
+add_executable(board_sim_thermal_event board_sim/thermal_event.cpp)
+target_link_libraries(board_sim_thermal_event PRIVATE caryatid_board_sim caryatid_flags)

@@ -1,0 +1,74 @@
+// caryatid-tool plot: metrics and FAP files as SVG.
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "assets/bake/plot/metrics_plot.h"
+#include "assets/tool/commands.h"
+
+namespace caryatid::tool {
+namespace {
+
+struct PlotArgs {
+  std::vector<std::string> in;
+  std::string out, title;
+};
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error(path + ":1: cannot be read; check the name");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void write_chart(const bake::Chart& chart, const std::string& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << bake::chart_svg(chart);
+  if (!out.flush())
+    throw std::runtime_error(path + ":1: cannot be written; check folder and space");
+}
+
+void plot_metrics(const PlotArgs& args) {
+  std::vector<bake::MetricsRun> runs;
+  for (const std::string& path : args.in)
+    runs.push_back(bake::parse_metrics(read_text(path), path));
+  bake::Chart chart = bake::metrics_chart(runs);
+  if (!args.title.empty()) chart.title = args.title;
+  write_chart(chart, args.out);
+}
+
+void plot_fap(const PlotArgs& args) {
+  bake::Chart chart = bake::fap_chart(read_text(args.in[0]), args.in[0]);
+  if (!args.title.empty()) chart.title = args.title;
+  write_chart(chart, args.out);
+}
+
+CLI::App* add_kind(CLI::App& plot, const char* name, const char* what, void (*run)(const PlotArgs&),
+                   int most) {
+  auto args = std::make_shared<PlotArgs>();
+  CLI::App* kind = plot.add_subcommand(name, what);
+  kind->add_option("IN", args->in, "File to plot")->required()->expected(1, most);
+  kind->add_option("-o,--out", args->out, "SVG file to write")->required();
+  kind->add_option("--title", args->title, "Title instead of the file's name");
+  kind->callback([args, run] { run(*args); });
+  return kind;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app) {
+  CLI::App* plot = app.add_subcommand("plot", "Draw metrics or animation curves as SVG");
+  plot->require_subcommand(1);
+  add_kind(*plot, "metrics",
+           "Frame time and triangles over time; several files are compared.\n"
+           "Example: caryatid-tool plot metrics run.jsonl -o run.svg",
+           plot_metrics, 8);
+  add_kind(*plot, "fap",
+           "The FAPs that move most, by region of the face.\n"
+           "Example: caryatid-tool plot fap joy.fap -o joy.svg",
+           plot_fap, 1);
+}
+
+}  // namespace caryatid::tool
