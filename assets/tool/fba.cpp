@@ -5,6 +5,7 @@
 
 #include "assets/bake/stream/clip_files.h"
 #include "assets/bake/stream/epf.h"
+#include "assets/bake/stream/head_error.h"
 #include "assets/bake/stream/rate_plot.h"
 #include "assets/bake/stream/talking_track.h"
 #include "assets/tool/commands.h"
@@ -16,7 +17,7 @@ using bake::AnimationClip;
 
 struct FbaArgs {
   std::vector<std::string> in;
-  std::string out, epf, plot;
+  std::string out, epf, plot, pack;
   int quant = 1, bap_quant = 1, intra_every = 0;
   double fps = 0.0, kbps = 0.0, seconds = 60.0;
   unsigned seed = 1;
@@ -144,7 +145,14 @@ void rate(const FbaArgs& a) {
   if (clip.face.empty()) throw std::runtime_error(a.in.front() + ": no face; give a .fap");
   clip.body.clear();
   if (a.fps > 0.0) bake::resample(a.fps, &clip);
-  const auto points = bake::measure_rates(clip, static_cast<std::size_t>(a.intra_every));
+  bake::Measure measure = bake::point_error;
+  if (!a.pack.empty()) {
+    const auto head = std::make_shared<bake::HeadMeter>(a.pack);
+    measure = [head](const auto& original, const auto& decoded) {
+      return head->measure(original, decoded);
+    };
+  }
+  const auto points = bake::measure_rates(clip, static_cast<std::size_t>(a.intra_every), measure);
   std::printf("kbit/s  step mm  FAPs  mean mm   99 %% mm\n");
   for (const bake::RatePoint& p : points)
     std::printf("%6.3f  %7.3f  %4zu  %7.3f  %8.3f\n", p.kbit_per_s, static_cast<double>(p.step_mm),
@@ -208,6 +216,7 @@ void add_fba(CLI::App& app) {
   cmd->add_option("in", a->in, "IN.fap")->required()->expected(1);
   cmd->add_option("--fps", a->fps, "Frames a second; the text is resampled");
   cmd->add_option("--intra", a->intra_every, "Frames between intra planes (0: the first only)");
+  cmd->add_option("--pack", a->pack, "Measure on this head (default: estimate by adult means)");
   cmd->add_option("--plot", a->plot, "OUT.svg");
 }
 

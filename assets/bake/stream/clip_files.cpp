@@ -206,6 +206,15 @@ stream::FbaRate rate_of(double frames_per_second) {
              : plain;
 }
 
+PointError summary_of(std::vector<double> errors_mm) {
+  if (errors_mm.empty()) return {};
+  std::sort(errors_mm.begin(), errors_mm.end());
+  double sum = 0.0;
+  for (const double e : errors_mm) sum += e;
+  return {sum / static_cast<double>(errors_mm.size()), errors_mm[errors_mm.size() * 99 / 100],
+          errors_mm.back()};
+}
+
 PointError point_error(const std::vector<face::FapFrame>& original,
                        const std::vector<face::FapFrame>& decoded) {
   std::vector<double> errors;
@@ -229,12 +238,7 @@ PointError point_error(const std::vector<face::FapFrame>& original,
     }
     for (const auto& [point, square] : square_mm) errors.push_back(std::sqrt(square + head));
   }
-  if (errors.empty()) return {};
-  std::sort(errors.begin(), errors.end());
-  double sum = 0.0;
-  for (const double e : errors) sum += e;
-  return {sum / static_cast<double>(errors.size()), errors[errors.size() * 99 / 100],
-          errors.back()};
+  return summary_of(std::move(errors));
 }
 
 }  // namespace caryatid::bake

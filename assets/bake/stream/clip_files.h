@@ -54,6 +54,7 @@ stream::FbaRate rate_of(double frames_per_second);
 struct PointError {
   double mean_mm = 0.0, p99_mm = 0.0, largest_mm = 0.0;
 };
+PointError summary_of(std::vector<double> errors_mm);
 PointError point_error(const std::vector<face::FapFrame>& original,
                        const std::vector<face::FapFrame>& decoded);
 

@@ -65,7 +65,8 @@ void draw_line(const std::vector<RatePoint>& points, double PointError::*which, 
 
 }  // namespace
 
-std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intra_every) {
+std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intra_every,
+                                     const Measure& measure) {
   std::vector<RatePoint> points;
   std::vector<stream::ModelNode> nodes(1 << 20);
   for (const double rate : kRates) {
@@ -83,8 +84,8 @@ std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intr
     face::FapFrame face;
     body::BapFrame body;
     while (decoder.next(&plane, &face, &body).ok()) decoded.push_back(face);
-    points.push_back({plan.kbit_per_s, plan.step_mm, settings.fap_mask.count(),
-                      point_error(clip.face, decoded)});
+    points.push_back(
+        {plan.kbit_per_s, plan.step_mm, settings.fap_mask.count(), measure(clip.face, decoded)});
   }
   return points;
 }

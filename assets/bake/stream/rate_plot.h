@@ -1,5 +1,7 @@
 #pragma once
 // What a face stream's rate costs in error: a table and a plot.
+#include <functional>
+
 #include "assets/bake/stream/clip_files.h"
 
 namespace caryatid::bake {
@@ -13,7 +15,11 @@ struct RatePoint {
 
 // Plans, encodes and decodes the face of the clip at rates from 0.5 to 8 kbit/s, as far as they
 // are reached.
-std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intra_every);
+// `measure` compares the original with what was decoded: point_error, or HeadMeter::measure.
+using Measure = std::function<PointError(const std::vector<face::FapFrame>& original,
+                                         const std::vector<face::FapFrame>& decoded)>;
+std::vector<RatePoint> measure_rates(const AnimationClip& clip, std::size_t intra_every,
+                                     const Measure& measure);
 
 // SVG: error over rate, both logarithmic.
 std::string plot_rates(const std::vector<RatePoint>& points);

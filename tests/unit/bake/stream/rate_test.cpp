@@ -127,7 +127,7 @@ TEST(Rate, TextOfOthersSurvivesTheWayThroughAStream) {
 TEST(Rate, PlotIsAPicture) {
   AnimationClip clip;
   clip.face = make_talking_track(8.0, 25.0, 1);
-  const auto points = measure_rates(clip, 0);
+  const auto points = measure_rates(clip, 0, point_error);
   ASSERT_GE(points.size(), 3u);
   for (std::size_t i = 1; i < points.size(); ++i) {
     EXPECT_GT(points[i].kbit_per_s, points[i - 1].kbit_per_s);
