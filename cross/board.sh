@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<'TEXT'
 usage: cross/board.sh build [arm64|armhf] [bookworm|trixie]   cross-compile the agent
-       cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   the same, and run the board code's tests
+       cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   and run the board code's tests
 
 Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
 ~/.cache/caryatid; bookworm has libgpiod 1.6, trixie libgpiod 2.
@@ -19,9 +19,8 @@ TEXT
 # For the machine that compiles.
 packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-certificates)
 # For the board: what caryatid and its tests link to.
-libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libgpiod-dev
-  libhidapi-dev libasound2-dev libglm-dev libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev
-  libbenchmark-dev)
+libraries=(libc6-dev libgles-dev libegl-dev libx11-dev libgpiod-dev libhidapi-dev libglm-dev
+  libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }

@@ -23,11 +23,10 @@ TEXT
 packages=(
   ca-certificates g++ cmake ninja-build pkg-config python3     # build
   libglm-dev libtomlplusplus-dev libcli11-dev                  # headers
-  libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev      # display
+  libgles-dev libegl-dev libx11-dev                            # display
   libegl-mesa0 libgl1-mesa-dri                                 # software rendering
   libgpiod-dev libhidapi-dev                                   # buttons
-  libasound2-dev espeak-ng                                     # speech
-  libeigen3-dev nlohmann-json3-dev libstb-dev libcgal-dev libmeshoptimizer-dev  # bake
+  libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
   fonts-dejavu-core                                            # captions
   libgtest-dev libgmock-dev libbenchmark-dev                   # tests
   clang libclang-rt-14-dev clang-format                        # fuzzing and format
