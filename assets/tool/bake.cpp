@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "assets/bake/face/fat.h"
+#include "assets/bake/gait/soles.h"
 #include "assets/bake/human/build.h"
 #include "assets/bake/light/occlusion.h"
 #include "assets/bake/pack/small.h"
@@ -75,6 +76,7 @@ void bake_character(const BakeArgs& a) {
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
   progress.step("build the person");
   bake::Character character = bake::build_character(recipe, base, places);
+  bake::add_sole_points(character);
   print_facts(character);
   if (a.licences)
     for (const bake::Licence& l : character.licences)

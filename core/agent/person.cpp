@@ -56,6 +56,15 @@ Status Person::start(const pack::View& view, Arena& arena) {
     skeleton_.center_m[j.hanim] = to_vec(j.center_m);
   }
   body::derive_soles(skeleton_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    body::Sole& sole = skeleton_.sole[side];
+    Vec2* points[] = {&sole.heel_back, &sole.heel, &sole.toe, &sole.toe_tip};
+    for (int i = 0; i < 4; ++i)
+      if (const auto* p =
+              pack::find_feature_point(view, pack::kSoleGroup, static_cast<int>(4 * side) + i + 1))
+        *points[i] = {p->position_m[2], p->position_m[1]};
+    sole.ball = sole.toe;
+  }
   index_scratch_ = arena.take<std::uint16_t>(scratch_words(view));
   channel_weights_ = arena.take<float>(view.channels.size());
   if (index_scratch_.size() < scratch_words(view) || channel_weights_.size() < view.channels.size())

@@ -49,6 +49,8 @@ class Person {
   void collect_patches(FixedVector<scene::MeshPatch, kMaxObjects>* out);
 
   const pack::View& view() const { return view_; }
+  // Joint centres and soles of this body, for its walk.
+  const body::Skeleton& skeleton() const { return skeleton_; }
   const face::FapLimits& limits() const { return limits_; }
   // The calm face beneath every emotion.
   const face::FapFrame& rest_face() const { return rest_face_; }

@@ -1,5 +1,7 @@
 #include "core/body/foot_roll.h"
 
+#include <cmath>
+
 #include "core/base/trig.h"
 
 namespace caryatid::body {
@@ -34,12 +36,27 @@ FootShape foot_shape(const Skeleton& skeleton, bool left) {
           .toe_tip = from_ankle(sole.toe_tip)};
 }
 
+namespace {
+
+// Rolls a rigid outline over `near` and then, when the edge from there to `far` lies on the floor,
+// over `far`. `tilt_rad`: how far it is tipped towards `far`; `toe_up` +1 when that is toe up.
+Vec2 rolled(Vec2 point, Vec2 near, Vec2 far, float tilt_rad, float toe_up) {
+  const SinCos t = sin_cos(tilt_rad * toe_up);
+  const Vec2 edge = far - near;
+  const float length_m = std::sqrt(edge.x * edge.x + edge.y * edge.y);
+  const float slope = atan2_of(edge.y, -toe_up * edge.x);
+  if (tilt_rad <= slope || length_m < 1e-5f) return near + turned(point - near, t);
+  return Vec2{near.x - toe_up * length_m, 0.0f} + turned(point - far, t);
+}
+
+}  // namespace
+
 FootRoll roll_foot(const FootShape& shape, float pitch_rad, float toe_bend_rad) {
   if (pitch_rad >= 0.0f)
-    return {.ankle = shape.heel + turned(shape.ankle - shape.heel, sin_cos(pitch_rad))};
+    return {.ankle = rolled(shape.ankle, shape.heel, shape.heel_back, pitch_rad, 1.0f)};
   const float down = -pitch_rad;
   const float bend = soft_limit(down, toe_bend_rad, 0.25f * toe_bend_rad);
-  const Vec2 joint = shape.toe + turned(shape.metatarsal - shape.toe, sin_cos(bend - down));
+  const Vec2 joint = rolled(shape.metatarsal, shape.toe, shape.toe_tip, down - bend, -1.0f);
   return {.ankle = joint + turned(shape.ankle - shape.metatarsal, sin_cos(pitch_rad)),
           .toe_extension_rad = bend};
 }

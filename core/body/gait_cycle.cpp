@@ -218,7 +218,7 @@ float GaitCycle::push_off_pitch(Vec3 hip, float phase) const {
     return square(hip.x - ankle.x) + square(hip.y - ankle.y) + square(hip.z) > reach2;
   };
   if (!too_far(0.0f)) return 0.0f;
-  float flat = 0.0f, steep = -1.6f;
+  float flat = 0.0f, steep = -1.2f;  // Steeper, and a shoe would stand on its cap.
   for (int i = 0; i < 18; ++i) {
     const float middle = 0.5f * (flat + steep);
     (too_far(middle) ? flat : steep) = middle;

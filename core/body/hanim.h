@@ -132,11 +132,11 @@ Result<HanimJoint> find_hanim_joint(std::span<const char> name);
 // Outline of a foot sole in the sagittal plane: z and y in rest space (y up from the floor). The
 // hind part turns with the ankle, the last two points with the metatarsal joint.
 struct Sole {
-  Vec2 heel_back{0};  // Where the rounding of the heel leaves the floor, upwards: back, raised.
+  Vec2 heel_back{0};  // Stands when the foot is tipped back onto its rounded heel: raised at rest.
   Vec2 heel{0};       // Rearmost point that stands on the floor.
   Vec2 ball{0};       // On the floor beneath the metatarsal joint.
   Vec2 toe{0};        // Foremost point that stands on the floor.
-  Vec2 toe_tip{0};    // Front of the rounding of the toe, raised.
+  Vec2 toe_tip{0};    // Stands when the foot is tipped far forward: raised at rest.
 };
 
 // One body: joint centres in rest pose and the shape of the soles ([0] left, [1] right).
@@ -156,6 +156,23 @@ Skeleton upright_skeleton();
 // Soles of usual proportions for the given ankles and metatarsals, for bodies whose mesh was not
 // measured: heel and toe tip where the sites of the default figure are, scaled by foot length.
 void derive_soles(Skeleton& skeleton);
+
+// Finds the soles in the vertices of feet and shoes, which are added one after the other: the
+// points on which a foot stands, rolls over its heel and rolls over its toes.
+class SoleFitter {
+ public:
+  // `rest_m` in rest space, anywhere; what is not near the floor does not count.
+  void add(Vec3 rest_m);
+  // Replaces a side's sole when at least 12 points of it were near the floor.
+  void finish(Skeleton& skeleton) const;
+
+ private:
+  struct Side {
+    std::array<float, 4> height_m{1e9f, 1e9f, 1e9f, 1e9f};  // Of the tangents, at z = 0.
+    int count = 0;
+  };
+  std::array<Side, 2> side_;
+};
 
 // A centre as a body definition (BDP) sends it.
 struct JointCenter {

@@ -125,6 +125,44 @@ void derive_soles(Skeleton& skeleton) {
   }
 }
 
+namespace {
+
+// Slopes at which lines are laid against a sole from below: a little and far tipped onto the heel,
+// a little and far onto the toes. A heel strikes at up to 22 degrees, toes leave at up to 37.
+constexpr std::array<float, 4> kTangents = {0.10f, 0.40f, -0.22f, -0.75f};
+
+}  // namespace
+
+void SoleFitter::add(Vec3 p) {
+  constexpr float kNear_m = 0.06f;
+  if (!(p.y < kNear_m) || !(p.y > -kNear_m)) return;
+  Side& side = side_[p.x > 0.0f ? 0 : 1];
+  ++side.count;
+  for (std::size_t i = 0; i < kTangents.size(); ++i) {
+    const float height = p.y + kTangents[i] * p.z;
+    if (height < side.height_m[i]) side.height_m[i] = height;
+  }
+}
+
+void SoleFitter::finish(Skeleton& skeleton) const {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Side& side = side_[i];
+    if (side.count < 12) continue;
+    // Corners of the outline that floor and tangents make: nothing of the foot is outside.
+    const auto corners = [&](std::size_t first, Vec2& stands, Vec2& raised) {
+      const float s1 = kTangents[first], s2 = kTangents[first + 1];
+      const float h1 = side.height_m[first], h2 = side.height_m[first + 1];
+      stands = {h1 / s1, 0.0f};
+      const float z = (h1 - h2) / (s1 - s2);
+      raised = {z, h1 - s1 * z > 0.0f ? h1 - s1 * z : 0.0f};
+    };
+    Sole& sole = skeleton.sole[i];
+    corners(0, sole.heel, sole.heel_back);
+    corners(2, sole.toe, sole.toe_tip);
+    sole.ball = sole.toe;  // Of this shape the floor knows no other.
+  }
+}
+
 Status calibrate(const Skeleton& generic, std::span<const JointCenter> given, Skeleton& out,
                  CalibrationReport& report) {
   Skeleton body = generic;

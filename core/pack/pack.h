@@ -206,6 +206,9 @@ inline constexpr float kMoveStep_m = 2e-6f;  // +-65 mm in steps of 2 micrometre
 
 // An MPEG-4 feature point (FDP). Its vertex is locked: it lives, unmoved, at every level of detail.
 inline constexpr std::uint16_t kNoObject = 0xFFFF;
+// Group of our own: where a sole stands, rolls over the heel and over the toes. Index 1..4 left
+// heel back, heel, toe, toe tip; 5..8 right. Joint points, but with their own position.
+inline constexpr std::uint8_t kSoleGroup = 20;
 struct FeaturePoint {
   std::uint8_t group, index;  // "2.10" is {2, 10}.
   std::uint16_t object;       // kNoObject: the point is the centre of joint `vertex`.

@@ -1,6 +1,7 @@
 #include "assets/bake/human/figure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -120,9 +121,39 @@ Figure make_figure(const Recipe& recipe, const BaseHuman& base,
 
 namespace {
 
+// Slope of the soles with the feet as `motions` put them: heel above ball +. The base human stands
+// on its toes a little, and shoes with heels want that; what stands on the floor is the shoe.
+float sole_slope_rad(const Figure& figure, const std::vector<BoneMotion>& motions) {
+  const BoneMotion& foot = motions[figure.base->bone("foot.L")];
+  const BoneMotion& toes = motions[figure.base->bone("toe2-1.L")];
+  const float ball_z = toes.head_to_m.z, ankle_z = foot.head_to_m.z;
+  std::vector<Vec3> points;
+  const auto gather = [&](std::vector<Vec3> position_m, std::span<const Influence> influence) {
+    apply_motions(motions, influence, position_m);
+    for (const Vec3 p : position_m)
+      if (p.x > 0 && p.y < foot.head_to_m.y) points.push_back(p);
+  };
+  bool shod = false;
+  for (const FittedPart& part : figure.parts) {
+    const std::size_t before = points.size();
+    gather(part.position_m, part.proxy.influence);
+    shod = shod || points.size() > before + 100;
+  }
+  if (!shod) gather(figure.base_m, figure.base->influence());
+  const auto lowest = [&](float from_z, float to_z) {
+    Vec3 low{0, std::numeric_limits<float>::max(), 0};
+    for (const Vec3 p : points)
+      if (p.z >= from_z && p.z <= to_z && p.y < low.y) low = p;
+    return low;
+  };
+  const Vec3 heel = lowest(ankle_z - 0.2f, ankle_z + 0.01f);
+  const Vec3 ball = lowest(ball_z - 0.03f, ball_z + 0.01f);
+  return heel.z < ball.z ? std::atan2(heel.y - ball.y, ball.z - heel.z) : 0.0f;
+}
+
 // Poses copies of base and parts.
-void pose(Figure& figure, const ArmHang& hang) {
-  const auto motions = rest_pose_motions(*figure.base, figure.base_m, hang);
+void pose(Figure& figure, const ArmHang& hang, float sole_pitch_rad) {
+  const auto motions = rest_pose_motions(*figure.base, figure.base_m, hang, sole_pitch_rad);
   apply_motions(motions, figure.base->influence(), figure.base_m);
   for (std::size_t i = 0; i < motions.size(); ++i) figure.bone_head_m[i] = motions[i].head_to_m;
   for (FittedPart& part : figure.parts)
@@ -163,12 +194,16 @@ void stand(Figure& figure) {
   constexpr float kClearance_m = 0.006f, kStep_rad = 0.02f;
   const Figure before = figure;
   ArmHang hang;
-  pose(figure, hang);
+  float pitch_rad = 0.0f;
+  for (int round = 0; round < 3; ++round)
+    pitch_rad +=
+        sole_slope_rad(figure, rest_pose_motions(*figure.base, figure.base_m, hang, pitch_rad));
+  pose(figure, hang, pitch_rad);
   for (int i = 0; i < 12 && hand_clearance_m(figure) < kClearance_m; ++i) {
     hang.upper_arm_rad += kStep_rad;
     hang.forearm_rad += 0.5f * kStep_rad;
     figure = before;
-    pose(figure, hang);
+    pose(figure, hang, pitch_rad);
   }
 
   // The lowest thing that is seen stands on the floor: shoes where there are any.

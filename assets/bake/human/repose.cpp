@@ -129,27 +129,29 @@ void pose_arm(Poser& poser, const std::string& s, float side, const ArmHang& han
   pose_fingers(poser, s, {hand, fore, {0, 0, 1}, out});
 }
 
-void pose_leg(Poser& poser, const std::string& s) {
+void pose_leg(Poser& poser, const std::string& s, float sole_pitch_rad) {
   constexpr Vec3 kDown{0, -1, 0};
   const Vec3 hip = poser.head("upperleg01." + s), knee = poser.head("lowerleg01." + s);
   const Vec3 ankle = poser.head("foot." + s);
   const Quat thigh = turn_between(knee - hip, kDown);
   poser.set("upperleg01." + s, thigh);
   poser.set("lowerleg01." + s, turn_between(thigh * (ankle - knee), kDown) * thigh);
-  // Soles stay flat: the foot turns about the vertical only.
+  // The foot points forward and its sole is levelled; the toes keep their own slope.
   const Vec3 toe = poser.head("toe2-1." + s) - ankle;
-  poser.set("foot." + s, turn_about({0, 1, 0}, -std::atan2(toe.x, toe.z)));
+  const Quat forward = turn_about({0, 1, 0}, -std::atan2(toe.x, toe.z));
+  poser.set("foot." + s, turn_about({1, 0, 0}, -sole_pitch_rad) * forward);
+  for (int i = 1; i <= 5; ++i) poser.set("toe" + std::to_string(i) + "-1." + s, forward);
 }
 
 }  // namespace
 
 std::vector<BoneMotion> rest_pose_motions(const BaseHuman& base, std::span<const Vec3> base_m,
-                                          const ArmHang& hang) {
+                                          const ArmHang& hang, float sole_pitch_rad) {
   Poser poser(base, base_m);
   pose_arm(poser, "L", 1.0f, hang);
   pose_arm(poser, "R", -1.0f, hang);
-  pose_leg(poser, "L");
-  pose_leg(poser, "R");
+  pose_leg(poser, "L", sole_pitch_rad);
+  pose_leg(poser, "R", sole_pitch_rad);
   return poser.motions();
 }
 

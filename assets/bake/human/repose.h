@@ -29,9 +29,10 @@ struct BoneMotion {
   Vec3 point(Vec3 p) const { return head_to_m + turn * (p - head_from_m); }
 };
 
-// `base_m`: positions of the base (19158) in MakeHuman's pose. One motion a bone.
+// `base_m`: positions of the base (19158) in MakeHuman's pose. `sole_pitch_rad`: how far the feet
+// turn toe up against that pose, so that heels come down to the floor. One motion a bone.
 std::vector<BoneMotion> rest_pose_motions(const BaseHuman& base, std::span<const Vec3> base_m,
-                                          const ArmHang& hang);
+                                          const ArmHang& hang, float sole_pitch_rad);
 
 // Moves skinned positions by dual quaternions: limbs keep their volume where linear blending would
 // pinch shoulders and wrists.

@@ -107,6 +107,11 @@ std::vector<Joint> hanim_joints(const BaseHuman& base, std::span<const Vec3> bon
   for (const bool right : {false, true}) {
     const std::string s = right ? ".R" : ".L";
     for (const Pair& pair : kLimbs) center(sided(pair.left, right)) = head(pair.bone + s);
+    // Toes bend in the sole: the base's bone lies in the flesh above, and H-Anim's own figure has
+    // the joint on the floor. The higher it lies, the more a bending sole slides.
+    constexpr float kSoleHinge_m = 0.012f;
+    float& hinge = center(sided(HanimJoint::l_metatarsal, right)).y;
+    hinge = std::min(hinge, kSoleHinge_m);
     // Of the foot's inner joints the base has none: beneath the ankle, and half way to the toes.
     const Vec3 ankle = center(sided(HanimJoint::l_ankle, right));
     const Vec3 toes = center(sided(HanimJoint::l_metatarsal, right));
@@ -149,7 +154,7 @@ WeightMap::Rule WeightMap::rule_of(const std::string& bone) const {
   if (stem.starts_with("spine") || stem.starts_with("neck") || stem == "breast")
     return {Kind::trunk, 0};
   if (stem == "root" || stem == "pelvis") return {Kind::joint, number(HanimJoint::sacroiliac)};
-  if (stem == "foot") return {Kind::foot, number(sided(HanimJoint::l_ankle, right))};
+  if (stem == "foot") return {Kind::foot, number(sided(HanimJoint::l_subtalar, right))};
   if (stem.starts_with("toe")) return {Kind::joint, number(sided(HanimJoint::l_metatarsal, right))};
   for (const Pair& pair : kLimbs)
     if (stem == pair.bone) return {Kind::joint, number(sided(pair.left, right))};
@@ -168,8 +173,9 @@ Influence WeightMap::operator()(const Influence& bones, Vec3 p) const {
     if (rule.kind == Kind::trunk) {
       trunk += w;
     } else if (rule.kind == Kind::foot) {
-      // Ankle and the arch in front of the midtarsal joint share the foot.
-      const bool right = (rule.joint - number(HanimJoint::l_ankle)) != 0;
+      // Heel and the arch in front of the midtarsal joint share the foot. Both lie below the
+      // subtalar joint, about which a sole stays flat under a leg that leans sideways.
+      const bool right = (rule.joint - number(HanimJoint::l_subtalar)) != 0;
       const std::uint16_t arch = number(sided(HanimJoint::l_midtarsal, right));
       const float ahead = (p.z - joints_[arch].center_m.z) / 0.04f;
       const float share = glm::smoothstep(-0.5f, 0.5f, ahead);
