@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 namespace caryatid::face {
 namespace {
@@ -86,12 +87,47 @@ void seal_pair(FapFrame& frame, int upper, int lower, int upper_outer, int lower
   frame.set(lower_outer, frame.get(lower_outer) - half * kPress);
 }
 
+// Two FAPs of neighbouring points and how far apart they may be, in their common unit; sign -1
+// where they count in opposite directions (upper lip down, corner up).
+struct Tie {
+  std::uint8_t a, b;
+  float sign;
+  float slack;
+};
+// Slack of 420 MNS is 8 mm: about the height of a lip. Set by looking for notches and folds.
+constexpr Tie kTies[] = {
+    // Along the inner contour, from it to the outer one, along that; then the brows.
+    {5, 10, 1, 420},   {5, 11, 1, 420},  {10, 12, 1, 560}, {11, 13, 1, 560}, {4, 8, 1, 300},
+    {4, 9, 1, 300},    {8, 12, -1, 450}, {9, 13, -1, 450}, {5, 52, 1, 300},  {10, 57, 1, 300},
+    {11, 58, 1, 300},  {4, 51, 1, 250},  {8, 55, 1, 250},  {9, 56, 1, 250},  {12, 59, 1, 150},
+    {13, 60, 1, 150},  {6, 53, 1, 60},   {7, 54, 1, 60},   {52, 57, 1, 420}, {52, 58, 1, 420},
+    {57, 59, 1, 560},  {58, 60, 1, 560}, {51, 55, 1, 300}, {51, 56, 1, 300}, {55, 59, -1, 450},
+    {56, 60, -1, 450}, {31, 33, 1, 260}, {32, 34, 1, 260}, {33, 35, 1, 220}, {34, 36, 1, 220},
+};
+
+void pull(const Tie& tie, FapFrame& frame) {
+  const float a = frame.get(tie.a), b = tie.sign * frame.get(tie.b);
+  const float apart = a - b;
+  const float excess =
+      apart > 0.0f ? std::max(apart - tie.slack, 0.0f) : std::min(apart + tie.slack, 0.0f);
+  if (excess == 0.0f) return;
+  // What has moved less is taken along by what has moved more.
+  if (a * a >= b * b)
+    frame.set(tie.b, tie.sign * (b + excess));
+  else
+    frame.set(tie.a, a - excess);
+}
+
 }  // namespace
 
 void seal_lips(FapFrame& frame) {
   seal_pair(frame, 4, 5, 51, 52);
   seal_pair(frame, 8, 10, 55, 57);
   seal_pair(frame, 9, 11, 56, 58);
+}
+
+void keep_flesh_whole(FapFrame& frame) {
+  for (const Tie& tie : kTies) pull(tie, frame);
 }
 
 void seal_lids(FapFrame& frame) {
@@ -112,8 +148,13 @@ FapFrame MixJob::run() const {
     const auto i = static_cast<std::size_t>(fap);
     out.set(fap, soften(out.get(fap), limits->low[i], limits->high[i]));
   }
+  keep_flesh_whole(out);
   seal_lips(out);
   seal_lids(out);
+  for (int fap = 3; fap <= kFapCount; ++fap) {
+    const auto i = static_cast<std::size_t>(fap);
+    out.value[i] = std::clamp(out.value[i], limits->low[i], limits->high[i]);
+  }
   return out;
 }
 

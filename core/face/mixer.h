@@ -33,6 +33,12 @@ struct MixJob {
 // overlap; the outer contour goes along. FAPs 4, 5, 8-11 and 51, 52, 55-58 change.
 void seal_lips(FapFrame& frame);
 
+// Flesh hangs together: a point of lips or brows that leaves its neighbours farther behind than
+// skin stretches takes them along. Single points of a stream then bend the lip instead of tearing a
+// notch into it; frames with all points given (or filled) pass unchanged. Lip FAPs and 31-36
+// change.
+void keep_flesh_whole(FapFrame& frame);
+
 // Lids that would pass through each other meet: the upper lid gives way. FAPs 19, 20 change.
 void seal_lids(FapFrame& frame);
 

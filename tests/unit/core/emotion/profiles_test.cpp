@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/face/mixer.h"
+
 namespace caryatid::emotion {
 namespace {
 
@@ -45,6 +47,15 @@ TEST(Profiles, FacesStayWithinOneDeviationOfTheMean) {
     for (const ProfileEntry& p : profile(static_cast<Emotion>(i)))
       EXPECT_LE(std::abs(shown_value(p) - p.mean), p.deviation + 1e-3f)
           << kEmotionNames[i] << " FAP " << int{p.fap};
+}
+
+TEST(Profiles, FacesNeedNoMending) {
+  for (std::size_t i = 1; i < kEmotionCount; ++i) {
+    face::FapFrame face = peak_face(static_cast<Emotion>(i));
+    const face::FapFrame before = face;
+    face::keep_flesh_whole(face);
+    EXPECT_EQ(face.value, before.value) << kEmotionNames[i];
+  }
 }
 
 TEST(Profiles, OuterLipsAreFilledFromInner) {

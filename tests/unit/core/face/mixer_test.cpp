@@ -120,6 +120,25 @@ TEST(Lips, SealLeavesPartedLipsAlone) {
   EXPECT_EQ(frame.get(5), 50.0f);
 }
 
+TEST(Flesh, ASinglePointTakesItsNeighboursAlong) {
+  FapFrame frame;
+  frame.set(5, -900.0f);
+  keep_flesh_whole(frame);
+  EXPECT_EQ(frame.get(5), -900.0f);
+  EXPECT_EQ(frame.get(52), -600.0f);
+  EXPECT_EQ(frame.get(10), -480.0f);
+  EXPECT_EQ(frame.get(4), 0.0f) << "the other lip stays";
+}
+
+TEST(Flesh, WholeFacesPassUnchanged) {
+  for (std::size_t e = 1; e < 15; ++e) {
+    const FapFrame viseme = viseme_frame(static_cast<int>(e));
+    FapFrame kept = viseme;
+    keep_flesh_whole(kept);
+    EXPECT_EQ(kept.value, viseme.value) << e;
+  }
+}
+
 TEST(Soften, IsExactWithinTheWorkingRangeAndNeverPassesTheLimit) {
   EXPECT_EQ(soften(99.0f, -115.0f, 115.0f), 99.0f);
   EXPECT_EQ(soften(-99.0f, -115.0f, 115.0f), -99.0f);
