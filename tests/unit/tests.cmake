@@ -40,3 +40,9 @@ if(SYSTEMD_ANALYZE)
   add_test(NAME deploy_hardening COMMAND ${SYSTEMD_ANALYZE} security --offline=true --threshold=15
     --no-pager ${CMAKE_SOURCE_DIR}/firmware-app/deploy/caryatid.service)
 endif()
+add_executable(unit_firmware_stream_file
+  ${CMAKE_CURRENT_LIST_DIR}/firmware-app/stream_file_test.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/stream_file.cpp)
+target_link_libraries(unit_firmware_stream_file PRIVATE caryatid_agent caryatid_flags
+  GTest::gtest_main)
+add_test(NAME unit_firmware_stream_file COMMAND unit_firmware_stream_file)
