@@ -33,8 +33,10 @@ void StageModel::Run::add(float z, float e) {
 }
 
 float StageModel::Run::mean_ratio() const {
-  if (frames < 2) return 1.0f + std::max(sum, 0.0f);
-  return 1.0f + std::max((sum - largest) / static_cast<float>(frames - 1), 0.0f);
+  const float others = frames < 2 ? sum : (sum - largest) / static_cast<float>(frames - 1);
+  const bool spiked = frames >= 2 && largest > 2.0f * others;
+  const float mean = spiked ? others : sum / static_cast<float>(std::max(frames, 1));
+  return 1.0f + std::max(mean, 0.0f);
 }
 
 float StageModel::predict(const Terms& x) const {

@@ -18,9 +18,9 @@ namespace caryatid::lod {
 //   never winds up.
 // - A step (throttling, another process): a one-sided CUSUM each way over the standardised
 //   innovations (clipped at 6). When it fires, ALL gains are multiplied by the step's mean ratio,
-//   because a slower clock slows every term; the largest innovation is left out of that mean, as it
-//   may be a spike. A 30 % step fires at the second frame, 10 % after about five; one spike alone
-//   never does.
+//   because a slower clock slows every term; an innovation twice as large as the others is left out
+//   of that mean, as it is a spike. A 30 % step fires at the second frame, 10 % after about five;
+//   one spike alone never does.
 // - Noise: the deviation is tracked too and sets how much of a frame the controller leaves free.
 //
 // Gains stay in [1/8, 8], the deviation in [0.02, 0.12], whatever is fed in (0 and huge times
