@@ -9,6 +9,7 @@ namespace {
 
 // Half of the vertical angle of view: 12 degrees, an 85 mm lens on 35 mm film turned upright.
 constexpr float kHalfFieldOfView_rad = 12.0f * kPi / 180.0f;
+constexpr float kFaceToMiddle_m = 0.085f;  // From the eyes back to the middle of the head.
 constexpr float kNear_m = 0.1f, kFar_m = 30.0f;
 
 Vec3 around(float yaw_rad, float pitch_rad) {
@@ -42,12 +43,15 @@ Framing framing(View view, const Subject& subject) {
     case View::head:
       break;
     case View::left:
+      f.target_m.z -= kFaceToMiddle_m;
       f.direction = around(kPi / 2.0f, 0.0f);
       break;
     case View::right:
+      f.target_m.z -= kFaceToMiddle_m;
       f.direction = around(-kPi / 2.0f, 0.0f);
       break;
     case View::three_quarter:
+      f.target_m.z -= 0.5f * kFaceToMiddle_m;
       f.direction = around(0.65f, 0.03f);
       break;
     case View::bust:

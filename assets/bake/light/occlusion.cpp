@@ -20,16 +20,41 @@ bool stays_open(pack::ObjectRole role) {
          role == pack::ObjectRole::brow;
 }
 
+// How much of a hair triangle is strands: its texture's alpha, at the corners of a small grid.
+float coverage(const Image& image, const Mesh& m, const std::array<std::uint32_t, 3>& t) {
+  constexpr int kSteps = 6;
+  float sum = 0.0f;
+  int count = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; i + j <= kSteps; ++j, ++count) {
+      const float a = static_cast<float>(i) / kSteps, b = static_cast<float>(j) / kSteps;
+      const Vec2 uv = a * m.uv[t[0]] + b * m.uv[t[1]] + (1.0f - a - b) * m.uv[t[2]];
+      const auto texel = [](float at, std::uint32_t size) {
+        const float wrapped = at - std::floor(at);
+        return std::min(static_cast<std::uint32_t>(wrapped * static_cast<float>(size)), size - 1);
+      };
+      const std::size_t x = texel(uv.x, image.width), y = texel(uv.y, image.height);
+      sum += static_cast<float>(image.rgba[4 * (y * image.width + x) + 3]) / 255.0f;
+    }
+  return sum / static_cast<float>(count);
+}
+
+float opacity_of(const Character& c, const Object& o, const std::array<std::uint32_t, 3>& t) {
+  const pack::Material& material = c.materials[o.material];
+  if ((material.flags & pack::kAlphaBlend) == 0) return 1.0f;
+  if (material.texture >= c.images.size()) return kHairOpacity;
+  return kHairOpacity * coverage(c.images[material.texture], o.mesh, t);
+}
+
 RayTree tree_of(const Character& c) {
   std::vector<RayTree::Triangle> all;
   for (const Object& o : c.objects) {
     const bool clear = o.role == pack::ObjectRole::lash || o.role == pack::ObjectRole::brow ||
                        (c.materials[o.material].flags & pack::kCornea) != 0;
     if (clear) continue;
-    const float opacity = o.role == pack::ObjectRole::hair ? kHairOpacity : 1.0f;
     for (const auto& t : o.mesh.triangles)
-      all.push_back(
-          {{o.mesh.position_m[t[0]], o.mesh.position_m[t[1]], o.mesh.position_m[t[2]]}, opacity});
+      all.push_back({{o.mesh.position_m[t[0]], o.mesh.position_m[t[1]], o.mesh.position_m[t[2]]},
+                     opacity_of(c, o, t)});
   }
   return RayTree(std::move(all));
 }
