@@ -28,7 +28,7 @@ packages=(
   libgpiod-dev libhidapi-dev                                   # buttons
   libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
   fonts-dejavu-core                                            # captions
-  libgtest-dev libgmock-dev libbenchmark-dev                   # tests
+  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth        # tests
   clang libclang-rt-14-dev clang-format                        # fuzzing and format
 )
 

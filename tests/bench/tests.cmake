@@ -9,5 +9,6 @@ target_link_libraries(caryatid-bench PRIVATE caryatid_bake caryatid_agent caryat
   caryatid_flags benchmark::benchmark)
 # So that benchmarks never rot; the long ones are run by hand.
 add_test(NAME bench_lod_step COMMAND caryatid-bench --filter lod/step)
+add_test(NAME bench_scene COMMAND caryatid-bench --filter scene/)
 add_test(NAME bench_stream COMMAND caryatid-bench --filter stream/decode/talking)
 add_test(NAME bench_face COMMAND caryatid-bench --filter face/)
