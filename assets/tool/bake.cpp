@@ -9,9 +9,11 @@
 #include "assets/bake/face/fat.h"
 #include "assets/bake/gait/soles.h"
 #include "assets/bake/human/build.h"
+#include "assets/bake/human/preview.h"
 #include "assets/bake/light/occlusion.h"
 #include "assets/bake/pack/small.h"
 #include "assets/bake/pack/writer.h"
+#include "assets/bake/texture/image.h"
 #include "assets/tool/commands.h"
 
 namespace caryatid::tool {
@@ -105,6 +107,52 @@ void bake_character(const BakeArgs& a) {
   progress.step("done");
 }
 
+// The picture of all feature points, numbered: the face from the front, from its left, and the
+// mouth without the skin. Four views in one image.
+void draw_feature_points(const BakeArgs& a) {
+  const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
+  const std::filesystem::path recipe_file = a.recipe;
+  const auto places =
+      bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
+  const bake::Character person =
+      bake::build_character(bake::read_recipe(recipe_file), base, places);
+  const auto point = [&](int group, int index) {
+    for (const bake::FeaturePoint& p : person.feature_points)
+      if (p.group == group && p.index == index) return p.position_m;
+    throw std::runtime_error("no such feature point");
+  };
+  const Vec3 eyes = 0.5f * (point(3, 5) + point(3, 6)), mouth = 0.5f * (point(2, 4) + point(2, 5));
+  bake::PreviewView view;
+  view.number_feature_points = true;
+  view.width = view.height = 1000;
+  view.distance_m = 1.2f;
+  view.hide = {"hair"};
+  view.target_m = eyes - Vec3{0, 0.035f, 0};
+  view.height_m = 0.27f;
+  const bake::Image front = bake::render_preview(person, view);
+  view.yaw_rad = 1.2f;
+  const bake::Image side = bake::render_preview(person, view);
+  view.yaw_rad = 0;
+  view.target_m = mouth;
+  view.height_m = 0.085f;
+  const bake::Image lips = bake::render_preview(person, view);
+  view.hide = {"hair", "head", "eyes", "corneas", "eyebrows", "eyelashes"};
+  view.yaw_rad = 0.5f;
+  const bake::Image inside = bake::render_preview(person, view);
+  bake::Image sheet;
+  sheet.width = sheet.height = 2 * view.width;
+  sheet.rgba.resize(std::size_t{4} * sheet.width * sheet.height);
+  const bake::Image* cells[] = {&front, &side, &lips, &inside};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t y = 0; y < view.height; ++y)
+      std::copy_n(cells[i]->rgba.begin() + static_cast<std::ptrdiff_t>(4 * y * view.width),
+                  4 * view.width,
+                  sheet.rgba.begin() +
+                      static_cast<std::ptrdiff_t>(
+                          4 * ((i / 2 * view.height + y) * sheet.width + i % 2 * view.width)));
+  bake::write_png(sheet, a.out);
+}
+
 }  // namespace
 
 void add_bake(CLI::App& app) {
@@ -122,6 +170,15 @@ void add_bake(CLI::App& app) {
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");
   character->callback([a] { bake_character(*a); });
+  auto p = std::make_shared<BakeArgs>();
+  CLI::App* points = cmd->add_subcommand("feature-points",
+                                         "A picture of a recipe's face with all points numbered");
+  points->add_option("recipe", p->recipe, "RECIPE.toml")->required();
+  points->add_option("-o,--out", p->out, "OUT.png")->required();
+  points->add_option("--base", p->base, "Folder of the base human");
+  points->footer(
+      "example: caryatid-tool bake feature-points assets/characters/woman.toml -o points.png");
+  points->callback([p] { draw_feature_points(*p); });
 }
 
 }  // namespace caryatid::tool
