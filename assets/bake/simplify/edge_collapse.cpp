@@ -67,7 +67,7 @@ EdgeCollapse::EdgeCollapse(Surface surface, const CollapseOptions& options, Coll
     std::copy_n(surface.triangles[t].begin(), 3,
                 corners.begin() + static_cast<std::ptrdiff_t>(3 * t));
   live_triangles_ = static_cast<std::uint32_t>(surface.triangles.size());
-  surface.triangles = {};
+  std::vector<Triangle>().swap(surface.triangles);
   std::vector<std::uint32_t> origin;
   mesh_ = build_half_edges(std::move(corners), static_cast<std::uint32_t>(position_.size()),
                            &origin, &report_->repairs);
@@ -79,6 +79,7 @@ EdgeCollapse::EdgeCollapse(Surface surface, const CollapseOptions& options, Coll
       locked_[v] = locked_[origin[v]];
     }
   }
+  std::vector<std::uint32_t>().swap(origin);
   const std::size_t vertices = position_.size();
   quadric_.resize(vertices);
   cheapest_.assign(vertices, kNoHalfEdge);
@@ -312,7 +313,7 @@ Surface EdgeCollapse::run() {
 }
 
 Surface EdgeCollapse::take_surface() {
-  quadric_ = {};
+  std::vector<VertexQuadric>().swap(quadric_);
   queue_.reset();
   Surface out;
   out.triangles.reserve(live_triangles_);
