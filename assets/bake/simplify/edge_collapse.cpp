@@ -22,9 +22,10 @@ class EdgeCollapse {
     return mesh_.on_border(a) || mesh_.on_border(b) ||
            (!locked_.empty() && (locked_[a] || locked_[b]));
   }
+  // Twice the area vector, in the units of the fast cost.
   Vec3d normal(std::uint32_t h) const {
     const Vec3d &a = position_[mesh_.from[h]], &b = position_[mesh_.to(h)];
-    return cross(b - a, position_[mesh_.opposite(h)] - a);
+    return scale_ * scale_ * cross(b - a, position_[mesh_.opposite(h)] - a);
   }
   void add_normal(std::uint32_t vertex, const Vec3d& n, float sign) {
     quadric_[vertex].add(static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z),
@@ -35,21 +36,24 @@ class EdgeCollapse {
   void flush();
   void offer(std::uint32_t h, float cost);
   void evaluate_owned(std::uint32_t vertex);
+  void reopen(std::uint32_t vertex);
   bool keeps_orientation(std::uint32_t h, const Vec3d& x) const;
   void collapse(std::uint32_t h, const Vec3d& x);
   void change_quadrics(std::uint32_t h, float sign);
   void refresh(std::uint32_t v);
-  void refresh_edges_at(std::uint32_t r);
+  void look_again(std::uint32_t vertex);
   Surface take_surface();
 
   const CollapseOptions& options_;
   CollapseReport* report_;
   HalfEdges mesh_;
   std::vector<Vec3d> position_;
+  double scale_ = 1;  // Makes the mean edge 1 in the fast cost.
   std::vector<VertexQuadric> quadric_;
   std::vector<std::uint32_t> cheapest_;  // By vertex: its cheapest owned edge.
   std::vector<float> key_;               // Its cost while it is being refreshed.
   std::vector<bool> blocked_;            // By half-edge: collapse refused until something changes.
+  std::vector<bool> dirty_;  // By vertex: its cheapest edge may have another cost by now.
   std::vector<bool> locked_;
   std::vector<std::uint32_t> mark_;
   std::uint32_t stamp_ = 0, live_triangles_ = 0;
@@ -57,7 +61,7 @@ class EdgeCollapse {
   EdgeBatch batch_;
   std::uint32_t batch_size_ = 0;
   std::array<std::uint32_t, EdgeBatch::kWidth> batch_edge_{};
-  std::vector<std::uint32_t> touched_, stale_, ring_, moved_;
+  std::vector<std::uint32_t> ring_, moved_;
 };
 
 EdgeCollapse::EdgeCollapse(Surface surface, const CollapseOptions& options, CollapseReport* report)
@@ -86,6 +90,11 @@ EdgeCollapse::EdgeCollapse(Surface surface, const CollapseOptions& options, Coll
   key_.assign(vertices, VertexQueue::kNever);
   mark_.assign(vertices, 0);
   blocked_.assign(mesh_.from.size(), false);
+  dirty_.assign(vertices, false);
+  double length = 0;
+  for (std::uint32_t h = 0; h < mesh_.from.size(); ++h)
+    length += glm::length(position_[mesh_.to(h)] - position_[mesh_.from[h]]);
+  if (length > 0) scale_ = static_cast<double>(mesh_.from.size()) / length;
   for (std::uint32_t h = 0; h < mesh_.from.size(); h += 3) {
     const Vec3d n = normal(h);
     for (std::uint32_t i = 0; i < 3; ++i) add_normal(mesh_.from[h + i], n, 1.0f);
@@ -136,19 +145,20 @@ void EdgeCollapse::evaluate(std::uint32_t h) {
   if (slow(a, b)) {
     double cost = 0;
     if (exact_position(h, &cost)) {
-      const Vec3d edge = position_[b] - position_[a];
+      const Vec3d edge = scale_ * (position_[b] - position_[a]);
       const auto& q = quadric_[a].a;
       const double flat = 1e-7 * static_cast<double>(q[0] + q[3] + q[5]) * length2(edge) / 4;
-      offer(h, static_cast<float>(72.0 * cost + flat));
+      const double volume = scale_ * scale_ * scale_;
+      offer(h, static_cast<float>(72.0 * volume * volume * cost + flat));
     }
     return;
   }
   const std::uint32_t lane = batch_size_;
   batch_.set_ends(lane, quadric_[a], quadric_[b]);
   const Vec3d& origin = position_[a];
-  const Vec3d edge = position_[b] - origin;
-  const Vec3d left = cross(edge, position_[mesh_.opposite(h)] - origin);
-  const Vec3d right = cross(position_[mesh_.opposite(mesh_.twin[h])] - origin, edge);
+  const Vec3d edge = scale_ * (position_[b] - origin);
+  const Vec3d left = scale_ * cross(edge, position_[mesh_.opposite(h)] - origin);
+  const Vec3d right = scale_ * cross(position_[mesh_.opposite(mesh_.twin[h])] - origin, edge);
   for (int i = 0; i < 3; ++i) {
     batch_.half[i][lane] = static_cast<float>(0.5 * edge[i]);
     batch_.left[i][lane] = static_cast<float>(left[i]);
@@ -158,11 +168,11 @@ void EdgeCollapse::evaluate(std::uint32_t h) {
   if (++batch_size_ == EdgeBatch::kWidth) flush();
 }
 
-// All edges that the vertex owns, but those that are blocked or (marked) already refreshed.
+// Offers all edges that the vertex owns but those that are blocked.
 void EdgeCollapse::evaluate_owned(std::uint32_t vertex) {
   std::uint32_t last = kNoHalfEdge;
   const auto visit = [&](std::uint32_t h, std::uint32_t other) {
-    if (other > vertex && mark_[other] != stamp_ && !blocked_[h]) evaluate(h);
+    if (other > vertex && !blocked_[h]) evaluate(h);
   };
   mesh_.for_fan(vertex, [&](std::uint32_t h) {
     visit(h, mesh_.to(h));
@@ -233,34 +243,18 @@ void EdgeCollapse::collapse(std::uint32_t h, const Vec3d& x) {
   queue_->set(gone, VertexQueue::kNever);
 }
 
-// Evaluates the edges at r, which is the new vertex or one of its ring (all marked). Of an edge
-// between two of those, the end with the higher number does it.
-void EdgeCollapse::refresh_edges_at(std::uint32_t r) {
+// Everything at the vertex may be tried again; what it owns is looked at when its turn comes, or at
+// once where it has nothing in the queue.
+void EdgeCollapse::reopen(std::uint32_t vertex) {
   std::uint32_t last = kNoHalfEdge;
-  const auto visit = [&](std::uint32_t h, std::uint32_t s) {
-    const bool inside = mark_[s] == stamp_;
+  const auto visit = [&](std::uint32_t h, std::uint32_t other) {
     blocked_[h] = false;
     if (mesh_.twin[h] != kNoHalfEdge) blocked_[mesh_.twin[h]] = false;
-    if (inside && s < r) return;
-    if (!inside && s < r && mark_[s] != stamp_ - 1) {
-      // An owner outside: it keeps its cheapest edge unless just that one has changed.
-      mark_[s] = stamp_ - 1;
-      const std::uint32_t best = cheapest_[s];
-      bool lost = best == kNoHalfEdge || mesh_.from[best] == kNoHalfEdge;
-      if (!lost) {
-        const std::uint32_t other = mesh_.from[best] == s ? mesh_.to(best) : mesh_.from[best];
-        lost = mark_[other] == stamp_;
-      }
-      key_[s] = lost ? VertexQueue::kNever : queue_->key(s);
-      if (lost) {
-        cheapest_[s] = kNoHalfEdge;
-        stale_.push_back(s);
-      }
-      touched_.push_back(s);
-    }
-    evaluate(h);
+    if (other > vertex || dirty_[other]) return;
+    dirty_[other] = true;
+    if (cheapest_[other] == kNoHalfEdge) ring_.push_back(other);
   };
-  mesh_.for_fan(r, [&](std::uint32_t h) {
+  mesh_.for_fan(vertex, [&](std::uint32_t h) {
     visit(h, mesh_.to(h));
     last = h;
   });
@@ -268,27 +262,59 @@ void EdgeCollapse::refresh_edges_at(std::uint32_t r) {
   if (mesh_.twin[in] == kNoHalfEdge) visit(in, mesh_.from[in]);
 }
 
+// After a collapse to v the cost of every edge at v or its ring has changed. Those at v are
+// evaluated now. The others keep their place in the queue until they come up: costs rise nearly
+// always as a surface gets coarser, and then the new cost decides (run() looks again).
 void EdgeCollapse::refresh(std::uint32_t v) {
-  stamp_ += 2;  // stamp_: v and its ring. stamp_ - 1: owners outside.
-  touched_.clear();
-  stale_.clear();
-  ring_.assign(1, v);
+  ring_.clear();
   mesh_.for_ring(v, [&](std::uint32_t r) { ring_.push_back(r); });
-  for (const std::uint32_t r : ring_) {
-    mark_[r] = stamp_;
-    key_[r] = VertexQueue::kNever;
-    cheapest_[r] = kNoHalfEdge;
-    touched_.push_back(r);
+  const std::size_t ring_size = ring_.size();
+  for (std::size_t i = 0; i < ring_size; ++i) {
+    const std::uint32_t r = ring_[i], best = cheapest_[r];
+    dirty_[r] = true;
+    const bool lost = best == kNoHalfEdge || mesh_.from[best] == kNoHalfEdge ||
+                      mesh_.from[best] == v || mesh_.to(best) == v;
+    key_[r] = lost ? VertexQueue::kNever : queue_->key(r);
+    if (lost) cheapest_[r] = kNoHalfEdge;
   }
-  for (const std::uint32_t r : ring_) refresh_edges_at(r);
-  for (const std::uint32_t s : stale_) evaluate_owned(s);
+  for (std::size_t i = 0; i < ring_size; ++i) reopen(ring_[i]);
+  ring_.push_back(v);
+  key_[v] = VertexQueue::kNever;
+  cheapest_[v] = kNoHalfEdge;
+  for (const std::uint32_t r : ring_)
+    if (cheapest_[r] == kNoHalfEdge) {
+      key_[r] = VertexQueue::kNever;
+      dirty_[r] = false;
+      if (r != v) evaluate_owned(r);
+    }
+  reopen(v);
+  std::uint32_t last = kNoHalfEdge;
+  mesh_.for_fan(v, [&](std::uint32_t h) {
+    evaluate(h);
+    last = h;
+  });
+  const std::uint32_t in = prev_in_triangle(last);
+  if (mesh_.twin[in] == kNoHalfEdge) evaluate(in);
   flush();
-  for (const std::uint32_t t : touched_) queue_->set(t, key_[t]);
+  for (const std::uint32_t r : ring_) queue_->set(r, key_[r]);
+}
+
+void EdgeCollapse::look_again(std::uint32_t vertex) {
+  key_[vertex] = VertexQueue::kNever;
+  cheapest_[vertex] = kNoHalfEdge;
+  evaluate_owned(vertex);
+  flush();
+  queue_->set(vertex, key_[vertex]);
 }
 
 Surface EdgeCollapse::run() {
   while (live_triangles_ > options_.target_triangles && !queue_->empty()) {
     const std::uint32_t vertex = queue_->top();
+    if (dirty_[vertex]) {
+      dirty_[vertex] = false;
+      look_again(vertex);
+      continue;
+    }
     const std::uint32_t h = cheapest_[vertex];
     std::optional<Vec3d> x;
     if (mesh_.link_condition(h, mark_, stamp_)) x = exact_position(h, nullptr);
@@ -302,12 +328,7 @@ Surface EdgeCollapse::run() {
     ++report_->rejected;
     blocked_[h] = true;
     if (mesh_.twin[h] != kNoHalfEdge) blocked_[mesh_.twin[h]] = true;
-    ++stamp_;
-    key_[vertex] = VertexQueue::kNever;
-    cheapest_[vertex] = kNoHalfEdge;
-    evaluate_owned(vertex);
-    flush();
-    queue_->set(vertex, key_[vertex]);
+    look_again(vertex);
   }
   return take_surface();
 }

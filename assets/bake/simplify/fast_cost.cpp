@@ -41,8 +41,9 @@ F4 root(F4 v) {
   return r;
 }
 
-constexpr float kRegular = 1e-6f;  // Of the trace; float holds 6e-8.
-constexpr float kFlatFirst = 1e-7f;
+constexpr float kSin2Alpha = 3.0458649e-4f;  // alpha = 1 degree, as in placement.cpp.
+constexpr float kTan2Alpha = 3.0467929e-4f;
+constexpr float kFlatFirst = 1e-7f;  // Of the trace; float holds 6e-8.
 
 }  // namespace
 
@@ -59,7 +60,7 @@ void EdgeBatch::evaluate() {
                    m0.yy + m1.yy, m0.yz + m1.yz, m0.zz + m1.zz};
   const S3 m = without(without(both, nl), nr);
   const F4 trace = m.xx + m.yy + m.zz;
-  const F4 tiny = trace * 0.0f + 1e-37f;
+  const F4 tiny = trace * 0.0f + 1e-30f;
   // The plane of volume preservation: unit normal w, foot point xp.
   const F4 inverse = 1.0f / root(dot(n, n) + tiny);
   const V3 w = scaled(n, inverse);
@@ -70,13 +71,34 @@ void EdgeBatch::evaluate() {
   const F4 q = -1.0f / (sign + w.z), b = w.x * w.y * q;
   const V3 u = {1.0f + sign * w.x * w.x * q, sign * b, -sign * w.x};
   const V3 v = {b, sign + w.y * w.y * q, -w.y};
-  const V3 mu = m * u, mv = m * v, gradient = c + m * xp;
-  const F4 epsilon = kRegular * trace + tiny;
-  const F4 uu = dot(u, mu) + epsilon, uv = dot(u, mv), vv = dot(v, mv) + epsilon;
-  const F4 g0 = dot(u, gradient), g1 = dot(v, gradient);
-  const F4 determinant = uu * vv - uv * uv + tiny;
-  const F4 gain = (g0 * g0 * vv - 2.0f * (g0 * g1 * uv) + g1 * g1 * uu) / determinant;
-  F4 f = dot(xp, gradient + c) + k - gain;
+  // The two planes of volume optimisation, as equations in (s, t): x = xp + s u + t v. Each counts
+  // if it is further than alpha from what is held (3-2, 3-3); where one is missing, triangle shape
+  // draws to the middle of the edge, and so to the least s^2 + t^2.
+  // In parts of the trace, for powers of lengths soon leave the range of float.
+  const F4 part = 1.0f / (trace + tiny);
+  const V3 gradient = c + m * xp, scaled_gradient = scaled(gradient, part);
+  const V3 mu = scaled(m * u, part), mv = scaled(m * v, part);
+  const F4 uu = dot(u, mu), uv = dot(u, mv), vv = dot(v, mv), wu = dot(w, mu), wv = dot(w, mv);
+  const F4 g0 = dot(u, scaled_gradient), g1 = dot(v, scaled_gradient);
+  const F4 row0 = uu * uu + uv * uv, row1 = uv * uv + vv * vv;
+  const F4 determinant = uu * vv - uv * uv;
+  const auto take0 = row0 > kTan2Alpha * (wu * wu) + tiny;
+  const auto take1 = row1 > kTan2Alpha * (wv * wv) + tiny;
+  const auto both_rows =
+      take0 & (determinant * determinant > kSin2Alpha * (row0 * (row1 + wv * wv)) + tiny);
+  const F4 zero = trace * 0.0f;
+  const F4 along0 = -g0 / (row0 + tiny), along1 = -g1 / (row1 + tiny);
+  const F4 inverse_determinant = 1.0f / (both_rows ? determinant : zero + 1.0f);
+  const F4 s = both_rows ? (g1 * uv - g0 * vv) * inverse_determinant
+               : take0   ? along0 * uu
+               : take1   ? along1 * uv
+                         : zero;
+  const F4 t = both_rows ? (g0 * uv - g1 * uu) * inverse_determinant
+               : take0   ? along0 * uv
+               : take1   ? along1 * vv
+                         : zero;
+  F4 f = dot(xp, gradient + c) + k +
+         trace * (2.0f * (g0 * s + g1 * t) + (s * (uu * s + 2.0f * (uv * t)) + vv * (t * t)));
   for (int i = 0; i < 4; ++i) f[i] = f[i] > 0.0f ? f[i] : 0.0f;
   f = f + kFlatFirst * trace * dot(h, h);
   std::memcpy(cost, &f, sizeof cost);

@@ -28,7 +28,7 @@ struct VertexQuadric {
   }
 };
 
-// Four edges side by side.
+// Four edges side by side. Lengths should be about 1: powers up to the sixth must fit a float.
 struct EdgeBatch {
   static constexpr std::uint32_t kWidth = 4;
   using Lanes = float[kWidth];
@@ -45,9 +45,8 @@ struct EdgeBatch {
     for (int i = 0; i < 3; ++i) n0[i][lane] = q0.n[static_cast<std::size_t>(i)];
     for (int i = 0; i < 3; ++i) n1[i][lane] = q1.n[static_cast<std::size_t>(i)];
   }
-  // f_V at the best position that keeps the volume. On flat ground, where placement.h turns to
-  // triangle shape, a little weight on the middle of the edge keeps the equations regular; a term
-  // below the noise of float lets short edges go first there.
+  // f_V at the position that placement.h would choose, but that the middle of the edge stands for
+  // the centre of the ring. A term below the noise of float lets short edges go first on the flat.
   void evaluate();
 };
 
