@@ -119,7 +119,9 @@ lod::ObjectNeed object_need(const pack::Object& object, const scene::DrawList& l
 float shaded_pixels(const agent::Person& person, const scene::DrawList& list, std::uint32_t width,
                     std::uint32_t height) {
   const scene::ComposeJob job = job_of(person, list);
-  float sum = static_cast<float>(width) * static_cast<float>(height);  // The background.
+  // Without the background: it goes with the target's pixels, and the controller plans with the
+  // objects' fragments alone, so counting it here would make every prediction too low.
+  float sum = 0.0f;
   for (std::size_t o = 0; o < person.object_count(); ++o)
     sum += kSphereFill * scene::importance(job, o, width, height).screen_px *
            overdraw(person.view().objects[o].role);
