@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/trig.h"
+#include "core/body/hanim.h"
 
 namespace caryatid::scene {
 namespace {
@@ -22,6 +23,27 @@ void light(DrawList* list) {
 
 Vec3 center_of(const ComposeJob& job, const pack::Object& o) {
   return job.joints[o.bone[0]].point({o.center_m[0], o.center_m[1], o.center_m[2]});
+}
+
+// One wide soft shadow of the body, and a dark one where each foot is near the floor.
+void cast_shadows(const ComposeJob& job, DrawList* out) {
+  constexpr float kFadeHeight_m = 0.15f;  // Of the ankle above its height at rest.
+  out->floor_shadows.clear();
+  (void)out->floor_shadows.push({job.feet_m + Vec3{0, 0.002f, 0}, 0.36f, 0.26f, 0.4f});
+  for (std::size_t j = 0; j < job.pack->joints.size(); ++j) {
+    const pack::Joint& joint = job.pack->joints[j];
+    if (joint.hanim != body::index_of(body::HanimJoint::l_ankle) &&
+        joint.hanim != body::index_of(body::HanimJoint::r_ankle))
+      continue;
+    const Vec3 rest{joint.center_m[0], joint.center_m[1], joint.center_m[2]};
+    const Vec3 ankle = job.joints[j].point(rest);
+    const float lifted = (ankle.y - job.feet_m.y - rest.y) / kFadeHeight_m;
+    // The sole reaches further to the toes than to the heel.
+    const Vec3 toes = job.joints[j].direction({0, 0, 0.05f});
+    const Vec3 sole{ankle.x + toes.x, job.feet_m.y + 0.003f, ankle.z + toes.z};
+    (void)out->floor_shadows.push(
+        {sole, 0.10f, 0.19f, 0.75f * std::clamp(1.0f - lifted, 0.0f, 1.0f)});
+  }
 }
 
 // Where an object comes in drawing order; opaque ones tie and are sorted by distance.
@@ -74,8 +96,7 @@ Status ComposeJob::run(DrawList* out) const {
   out->render_scale = render_scale;
   out->meshes = meshes;
   light(out);
-  out->floor_shadows.clear();
-  (void)out->floor_shadows.push({feet_m + Vec3{0, 0.002f, 0}, 0.34f, 0.24f, 0.55f});
+  cast_shadows(*this, out);
   out->items.clear();
   out->bones.clear();
   FixedVector<Order, kMaxObjects> orders;

@@ -7,7 +7,8 @@ target_compile_definitions(caryatid_golden PRIVATE
   CARYATID_GOLDEN_OUT="${CMAKE_BINARY_DIR}/out/golden")
 target_link_libraries(caryatid_golden PUBLIC caryatid_render caryatid_display GTest::gtest_main
   PRIVATE caryatid_flags)
-add_executable(golden_render ${CMAKE_CURRENT_LIST_DIR}/render_test.cpp)
+add_executable(golden_render ${CMAKE_CURRENT_LIST_DIR}/render_test.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/display_test.cpp)
 target_link_libraries(golden_render PRIVATE caryatid_golden caryatid_flags)
 add_test(NAME golden_render COMMAND golden_render)
 find_program(XVFB_RUN xvfb-run)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/body/hanim.h"
 #include "core/scene/camera.h"
 
 namespace caryatid::scene {
@@ -91,6 +92,16 @@ TEST_F(Compose, LightsAreUnitAndPatchesStay) {
   EXPECT_NEAR(glm::length(list_->key.direction), 1.0f, 1e-6f);
   EXPECT_NEAR(glm::length(list_->rim.direction), 1.0f, 1e-6f);
   EXPECT_EQ(list_->patches.size(), 1u);
+}
+
+TEST_F(Compose, AFootThatLiftsLosesItsShadow) {
+  joints_[0].hanim = body::index_of(body::HanimJoint::l_ankle);
+  ASSERT_TRUE(job_.run(list_.get()).ok());
+  ASSERT_EQ(list_->floor_shadows.size(), 2u);
+  EXPECT_GT(list_->floor_shadows[1].strength, 0.5f);
+  affines_[0].row[1].w = 0.3f;
+  ASSERT_TRUE(job_.run(list_.get()).ok());
+  EXPECT_EQ(list_->floor_shadows[1].strength, 0.0f);
 }
 
 TEST_F(Compose, ImportanceGrowsWithNearnessAndIsZeroBehindTheCamera) {
