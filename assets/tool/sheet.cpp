@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "assets/tool/commands.h"
+#include "assets/tool/gait_sheet.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
 #include "core/face/fap_table.h"
@@ -15,7 +16,7 @@ namespace caryatid::tool {
 namespace {
 
 struct SheetArgs {
-  std::string pack, what, out;
+  std::string pack, what, out, mood;
   std::uint32_t cell = 400;
   long shuffle = -1;
 };
@@ -105,6 +106,17 @@ void sheet(const SheetArgs& a) {
   if (a.what == "emotions") cells = emotions(&studio);
   if (a.what == "visemes") cells = visemes(&studio), columns = 5;
   if (a.what == "faps") cells = faps(&studio), columns = 10;
+  if (a.what == "gait") {
+    // A named mood gives the strip of its cycle; none, the key poses of all.
+    GaitCells gait;
+    for (int m = 0; m < body::kGaitMoodCount; ++m)
+      if (a.mood == body::gait_mood_name(body::GaitMood(m)))
+        gait = gait_strip(&studio, body::gait_style(body::GaitMood(m)));
+    if (a.mood == "run") gait = gait_strip(&studio, body::running_style());
+    if (a.mood.empty()) gait = gait_poses(&studio);
+    cells = {gait.pictures, gait.captions};
+    columns = a.mood.empty() ? 4 : 8;
+  }
   if (a.what == "lods") cells = lods(&studio), columns = 3;
   if (a.shuffle >= 0) shuffle(static_cast<unsigned>(a.shuffle), &cells);
   write_png(grid(cells.pictures, cells.captions, columns), a.out);
@@ -115,12 +127,16 @@ void sheet(const SheetArgs& a) {
 void add_sheet(CLI::App& app) {
   auto a = std::make_shared<SheetArgs>();
   CLI::App* cmd = app.add_subcommand("sheet", "A contact sheet with captions");
-  cmd->add_option("what", a->what, "emotions visemes faps lods")
+  cmd->add_option("what", a->what, "emotions visemes faps lods gait")
       ->required()
-      ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods"}));
+      ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods", "gait"}));
   cmd->add_option("--pack", a->pack, "The character")->required();
   cmd->add_option("--cell", a->cell, "Pixels of a picture (default 400)")
       ->check(CLI::Range(64, 1024));
+  cmd->add_option("--mood", a->mood,
+                  "gait: the strip of this mood (or run) in place of the key poses of all")
+      ->check(CLI::IsMember(
+          {"normal", "bored", "happy", "sad", "angry", "hurried", "tired", "proud", "run"}));
   cmd->add_option("--shuffle", a->shuffle,
                   "Seed: numbers in place of captions, in random order; the key goes to stdout");
   cmd->add_option("-o,--out", a->out, "OUT.png")->required();

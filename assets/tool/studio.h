@@ -1,6 +1,7 @@
 #pragma once
 // Photographs of a pack's person: the kiosk's own renderer without a screen.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Pose {
   bool absolute = false;  // A stream's frame: replaces the calm face.
   body::BapFrame baps;
   scene::View view = scene::View::head;
-  std::uint32_t lod = 0;  // Triangles of the whole person; 0: all.
+  std::optional<scene::Framing> framing = std::nullopt;  // In place of `view`.
+  std::uint32_t lod = 0;                                 // Triangles of the whole person; 0: all.
 };
 
 class Studio {

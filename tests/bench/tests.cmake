@@ -21,3 +21,4 @@ add_test(NAME bench_stream COMMAND caryatid-bench --filter stream/decode/talking
 add_test(NAME bench_face COMMAND caryatid-bench --filter face/)
 add_test(NAME bench_mesh COMMAND caryatid-bench --filter mesh/rebuild)
 add_test(NAME bench_simplify COMMAND caryatid-bench --filter simplify/ball_20k/ours/3)
+add_test(NAME bench_body COMMAND caryatid-bench --filter body/)
