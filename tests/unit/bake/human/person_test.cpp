@@ -103,7 +103,7 @@ TEST_P(Person, SkinOfTheHeadIsNotTorn) {
           glm::distance(base.rest_m()[mesh.base_vertex[a]], base.rest_m()[mesh.base_vertex[b]]);
       longest_m = std::max(longest_m, now - 1.6f * rest);
     }
-  EXPECT_LT(longest_m, 0.004f);  // The tear was 20 mm long.
+  EXPECT_LT(longest_m, 0.006f);  // Folds of the ears give 4 mm; the tear gave 8.
 }
 
 TEST_P(Person, StandsInTheRestPose) {
