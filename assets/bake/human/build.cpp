@@ -71,6 +71,13 @@ std::vector<bool> on_jaw(const BaseHuman& base, const Proxy& proxy) {
   return out;
 }
 
+// 1 on the two irises of the package's eye textures, 0 on the whites: only irises take a tint.
+float iris_share(Vec2 uv) {
+  constexpr Vec2 kCenters[] = {{0.703f, 0.297f}, {0.290f, 0.706f}};
+  const float d = std::min(glm::distance(uv, kCenters[0]), glm::distance(uv, kCenters[1]));
+  return glm::smoothstep(0.135f, 0.115f, d);
+}
+
 class Builder {
  public:
   Builder(const Recipe& recipe, const BaseHuman& base, const std::vector<FeaturePointPlace>& places)
@@ -183,13 +190,19 @@ class Builder {
     // Brows and lashes are drawn black: they take the colour of the hair whole, softened a little.
     const bool hairs =
         part.proxy.name.starts_with("eyebrows") || part.proxy.name.starts_with("eyelashes");
-    for (Vec4& t : image.texel) {
+    const bool eyes = part.proxy.name.starts_with("eyes");
+    for (std::size_t i = 0; i < image.texel.size(); ++i) {
+      Vec4& t = image.texel[i];
       if (hairs) {
         t = Vec4{part.recipe.tint, part.recipe.softness * t.w};
         continue;
       }
       const float grey = glm::dot(Vec3{t}, Vec3{0.2126f, 0.7152f, 0.0722f});
-      t = Vec4{glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint, t.w};
+      const Vec3 dyed = glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint;
+      const Vec2 uv{
+          (static_cast<float>(i % image.width) + 0.5f) / static_cast<float>(image.width),
+          (static_cast<float>(i / image.width) + 0.5f) / static_cast<float>(image.height)};
+      t = Vec4{glm::mix(Vec3{t}, dyed, eyes ? iris_share(uv) : 1.0f), t.w};
     }
     if (hairs) bleed_alpha(image);
     // Small things on the screen need no more than this.
