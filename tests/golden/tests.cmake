@@ -20,3 +20,16 @@ if(X11_FOUND AND XVFB_RUN)
 else()
   message(STATUS "tests: the window display is not tested (libx11-dev or xvfb is missing)")
 endif()
+
+# The whole program, as a user runs it, on the built-in face: replay bit for bit, pictures by
+# tolerance, exact hashes of poses and draw lists, messages and exit codes.
+file(GLOB program_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/program/*_test.cpp)
+add_executable(golden_program ${program_sources})
+target_include_directories(golden_program SYSTEM PRIVATE /usr/include/stb)
+target_link_libraries(golden_program PRIVATE caryatid_agent caryatid_flags GTest::gmock
+  GTest::gtest_main)
+target_compile_definitions(golden_program PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+  CARYATID_PROGRAM="$<TARGET_FILE:caryatid>")
+add_dependencies(golden_program caryatid)
+add_test(NAME golden_program COMMAND golden_program)
+set_tests_properties(golden_program PROPERTIES TIMEOUT 900)
