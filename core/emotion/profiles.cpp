@@ -10,9 +10,8 @@ namespace {
 constexpr bool kMeasured = true, kQualitative = false;
 
 // Split of lid features F12, F13: 70 % upper, 30 % lower lid; of F14 and F15: half a side.
-// `lean` was set by looking at both characters until strangers' words for the faces were the right
-// ones. Anger: table 8-3 says raise_i_eyebrow(+), but table 8-4 measures lowered inner brows; minus
-// it is.
+// `lean` was set by looking at both characters. Anger: table 8-3 says raise_i_eyebrow(+), but table
+// 8-4 measures lowered inner brows; minus it is.
 constexpr std::array kAnger = {
     ProfileEntry{4, -73, 51, kMeasured, -1},     ProfileEntry{5, 60, 40, kQualitative, 0},
     ProfileEntry{12, -60, 30, kQualitative, 1},  ProfileEntry{13, -60, 30, kQualitative, 1},
