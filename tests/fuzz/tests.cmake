@@ -15,8 +15,11 @@ foreach(source ${fuzz_sources})
   endif()
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE caryatid_agent caryatid_flags)
-  if(reader STREQUAL mesh)  # Readers of the content tools.
-    target_link_libraries(${name} PRIVATE caryatid_bake)
+  if(reader STREQUAL mesh)  # Readers of the content tools, which these presets do not build.
+    file(GLOB mesh_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/assets/bake/mesh_io/*.cpp
+      ${CMAKE_SOURCE_DIR}/assets/bake/simplify/*.cpp)
+    target_sources(${name} PRIVATE ${mesh_sources})
+    target_include_directories(${name} SYSTEM PRIVATE /usr/include/eigen3)
   endif()
   if(CARYATID_FUZZ)
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
