@@ -430,6 +430,27 @@ void Kiosk::measure(const Tick& tick) {
                  options_.metrics.c_str());
 }
 
+// Where the arena goes, a line a section.
+void Kiosk::print_memory() {
+  std::size_t sum = 0;
+  const auto line = [&sum](const char* what, std::size_t bytes) {
+    std::printf("  %-16s %10zu bytes\n", what, bytes);
+    sum += bytes;
+  };
+  const pack::View& v = person_.view();
+  line("textures", v.texels.size_bytes());
+  line("vertices", v.versions.size_bytes());
+  line("base triangles", v.base_indices.size_bytes());
+  line("splits", v.splits.size_bytes() + v.split_data.size_bytes());
+  line("face tables",
+       v.fat_first.size_bytes() + v.fat_moves.size_bytes() + v.channels.size_bytes());
+  const std::size_t image = pack_file_.header().image_bytes;
+  line("the rest", image - sum);
+  line("live meshes", memory_.arena().used_bytes() - image);
+  std::printf("  %-16s %10zu bytes of the arena, file %u bytes\n", "sum", sum,
+              pack_file_.header().file_bytes);
+}
+
 bool Kiosk::check(const Options& options) {
   Kiosk kiosk(options);
   if (!kiosk.read_config()) return false;
@@ -451,6 +472,7 @@ bool Kiosk::check(const Options& options) {
   if (ok && !options.play.empty()) ok = kiosk.player_.open(options.play, &error);
   if (!ok) complain(error);
   if (ok) std::puts("caryatid: configuration and pack are sound");
+  if (ok && !options.pack.empty()) kiosk.print_memory();
   return ok;
 }
 

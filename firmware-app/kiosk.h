@@ -74,6 +74,7 @@ class Kiosk {
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
   void watch(bool shown);
+  void print_memory();
   void fix_levels();
   lod::SceneNeeds needs();
 
