@@ -141,7 +141,8 @@ void FramesOut::place_on_sheet(double time_s) {
 bool FramesOut::finish() {
   if (placed_ == 0) return true;
   const std::string path = directory_ + "/sheet.png";
-  const std::uint32_t w = columns_ * cell_width_, h = rows_ * cell_height_;
+  const std::uint32_t w = columns_ * cell_width_,
+                      h = (placed_ + columns_ - 1) / columns_ * cell_height_;
   return png_.write(path.c_str(), {sheet_.get(), std::size_t{3} * w * h}, w, h);
 }
 
