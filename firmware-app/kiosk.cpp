@@ -48,6 +48,11 @@ bool load_config(const std::string& path, Config* out, std::string* out_error) {
   return read_text(path, &text, out_error) && parse_config(text, path, out, out_error);
 }
 
+// Whole bodies know the soles on which they walk.
+bool has_legs(const pack::View& pack) {
+  return pack::find_feature_point(pack, pack::kSoleGroup, 1) != nullptr;
+}
+
 scene::View view_of(const std::string& name) {
   if (name == "body") return scene::View::body;
   return name == "bust" ? scene::View::bust : scene::View::head;
@@ -193,6 +198,8 @@ bool Kiosk::start() {
     (void)thermal_.open();  // A board without sensors counts as cool.
   }
   agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
+  set_stage();
+  aim_camera();
   const std::string& name = options_.board;
   const lod::BoardCosts* costs = lod::find_board({name.data(), name.size()});
   lod::LodConfig lod_config;
@@ -295,32 +302,55 @@ void Kiosk::poll_buttons(const Tick& tick) {
   if (from_display.resized) (void)renderer_->resize(display_->width(), display_->height());
 }
 
-// Known before the levels are chosen: a camera that moves in asks for more detail at once.
-void Kiosk::aim_camera() {
-  const float aspect =
-      static_cast<float>(renderer_->width()) / static_cast<float>(renderer_->height());
+// Where the person stands and whether she walks; streams bring a body of their own.
+void Kiosk::set_stage() {
   const auto* left = pack::find_feature_point(person_.view(), 3, 5);
   const auto* right = pack::find_feature_point(person_.view(), 3, 6);
-  scene::Subject subject;
-  subject.stature_m = person_.view().character->stature_m;
+  subject_.stature_m = person_.view().character->stature_m;
   if (left != nullptr && right != nullptr)
-    subject.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
-                      0.5f * (left->position_m[1] + right->position_m[1]),
-                      0.5f * (left->position_m[2] + right->position_m[2])};
-  list_.camera = scene::make_camera(scene::framing(view_of(options_.view), subject), aspect,
-                                    options_.rotate_degrees);
+    subject_.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
+                       0.5f * (left->position_m[1] + right->position_m[1]),
+                       0.5f * (left->position_m[2] + right->position_m[2])};
+  if (!has_legs(person_.view()) || player_.active()) return;
+  const scene::Framing body = scene::framing(scene::View::body, subject_);
+  const bool sideways = options_.rotate_degrees % 180 != 0;
+  const float aspect = sideways ? 1.0f / picture_aspect() : picture_aspect();
+  stage_ = std::make_unique<agent::Stage>(
+      &person_.skeleton(),
+      agent::StageSetup{
+          .walks = options_.view == "auto",
+          .half_width_m = 0.5f * std::max(body.visible_height_m * aspect, body.visible_width_m),
+          .eyes_m = subject_.eyes_m,
+          .seed = options_.seed});
+}
+
+float Kiosk::picture_aspect() const {
+  return static_cast<float>(renderer_->width()) / static_cast<float>(renderer_->height());
+}
+
+// Known before the levels are chosen: a camera that moves in asks for more detail at once.
+void Kiosk::aim_camera() {
+  scene::Subject near_by = subject_;
+  if (stage_) near_by.eyes_m = stage_->eyes_m();
+  scene::Framing framing =
+      scene::framing(view_of(options_.view), options_.view == "body" ? subject_ : near_by);
+  if (stage_ && options_.view == "auto")
+    framing =
+        scene::blend(scene::framing(scene::View::body, subject_), framing, stage_->closeness());
+  list_.camera = scene::make_camera(framing, picture_aspect(), options_.rotate_degrees);
 }
 
 void Kiosk::act(const Tick& tick) {
-  aim_camera();
   const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
+  if (stage_) stage_->step(tick.dt_s, will, list_.camera.position_m);
+  aim_camera();
   const face::FapFrame felt = emotion::expression(will.emotions);
   face::MixJob mix;
   mix.rest = &person_.rest_face();
   mix.emotion = &felt;
-  mix.idle = &will.idle_face;
+  mix.idle = stage_ ? &stage_->idle_face() : &will.idle_face;
   mix.limits = &person_.limits();
-  const body::BapFrame* baps = &will.body;
+  const body::BapFrame* baps = stage_ ? &stage_->body() : &will.body;
   if (player_.active()) {
     player_.seek(tick.time_s);
     if (player_.faps() != nullptr) mix = {.stream = player_.faps(), .limits = &person_.limits()};

@@ -10,8 +10,10 @@
 
 #include "core/agent/agent.h"
 #include "core/agent/person.h"
+#include "core/agent/stage.h"
 #include "core/lod/board_model.h"
 #include "core/lod/controller.h"
+#include "core/scene/camera.h"
 #include "core/scene/draw_list.h"
 #include "firmware-app/config.h"
 #include "firmware-app/memory.h"
@@ -68,6 +70,8 @@ class Kiosk {
   bool frame(const Tick& tick);
   void poll_buttons(const Tick& tick);
   void load_more();
+  void set_stage();
+  float picture_aspect() const;
   void aim_camera();
   void act(const Tick& tick);
   void choose_levels(const Tick& tick);
@@ -85,6 +89,8 @@ class Kiosk {
   pack::Loader loader_;
   agent::Person person_;
   std::unique_ptr<agent::Agent> agent_;
+  std::unique_ptr<agent::Stage> stage_;  // None where the person has no legs, or a stream plays.
+  scene::Subject subject_;               // At rest.
   Player player_;
   std::unique_ptr<platform::Display> display_;
   std::unique_ptr<platform::Renderer> renderer_;

@@ -20,7 +20,8 @@ usage: caryatid [OPTIONS]
   --size WxH             pixels of a window or surfaceless picture (default 800x480)
   --rotate DEGREES       0, 90, 180 or 270
   --target-fps N         frames a second, 1..120 (default 30)
-  --view NAME            head, bust or body (default head)
+  --view NAME            auto (the person walks in and the camera comes to the head), or stay at
+                         head, bust or body (default auto; a face without legs: head)
   --lod auto|N|OBJECT=N,...   triangles: chosen by the frame budget, of the whole person, or by
                          object (head, body, hair, clothes, eye, mouth, brow, lash)
   --script FILE          recorded button events, one a line: SECONDS NAME down|up
@@ -180,7 +181,7 @@ bool take(int id, const char* text, Options* o) {
       o->lod = text;
       return true;
     case kView:
-      return one_of("view", text, {"head", "bust", "body"}, &o->view);
+      return one_of("view", text, {"auto", "head", "bust", "body"}, &o->view);
     case kSeed:
       if (!number("seed", text, 0, 9e15, &value)) return false;
       o->seed = static_cast<std::uint64_t>(value);

@@ -21,7 +21,7 @@ struct Options {
   std::string metrics;
   std::string play;
   std::string lod = "auto";
-  std::string view = "head";  // head, bust, body.
+  std::string view = "auto";  // auto, head, bust, body.
   std::uint64_t seed = 1;
   bool check = false;
 };

@@ -29,9 +29,12 @@ void Agent::feel(emotion::Emotion e, float strength) {
 const Intentions& Agent::step(float dt_s, std::span<const ButtonEvent> events) {
   const float dt = dt_s > 0.0f ? std::min(dt_s, 0.25f) : 0.0f;
   since_press_s_ += dt;
+  out_.pressed = false;
   for (const ButtonEvent& e : events)
-    if (e.pressed && e.button >= 1 && e.button <= programme_->buttons.size())
+    if (e.pressed && e.button >= 1 && e.button <= programme_->buttons.size()) {
       press(programme_->buttons[e.button - 1u]);
+      out_.pressed = true;
+    }
   feeling_.step(dt);
   const bool busy = since_press_s_ < kBusy_s || feeling_.current() != emotion::Emotion::calm;
   idle_.step(dt, since_press_s_ < 4.0f ? 1.0f : (busy ? 0.6f : 0.2f));

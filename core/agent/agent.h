@@ -16,6 +16,7 @@ struct Intentions {
   face::FapFrame idle_face;                           // For face::MixJob::idle.
   body::BapFrame body;
   bool covers_change = false;  // A blink or saccade: the moment to change a level of detail.
+  bool pressed = false;        // A known button went down in this step.
   bool busy = false;           // Somebody is there: within kBusy_s of a press, or an emotion is up.
 };
 
