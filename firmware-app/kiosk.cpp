@@ -395,6 +395,7 @@ bool Kiosk::draw(const Tick& tick) {
   job.meshes = person_.meshes();
   job.joints = person_.joints();
   job.camera = list_.camera;
+  if (stage_) job.feet_m = {stage_->walker().place().x, 0.0f, stage_->walker().place().y};
   if (!fixed_) {
     job.render_scale = budget_->decision().render_scale;
     job.shading = budget_->decision().shading;
