@@ -20,8 +20,8 @@ constexpr float kAttentionRate = 5.0f;
 constexpr float kEyesRate = 3.5f;
 constexpr float kWalkingAttention = 0.55f;  // Who walks looks where she goes, too.
 constexpr float kEyesYaw_rad = 0.42f, kEyesPitch_rad = 0.21f;  // Where eyes still look at ease.
-constexpr float kStopShort_m = 0.45f;  // A press ends the walk after a step of this length.
-constexpr float kInside_m = 0.4f;      // From the edge of the picture to a person who is in it.
+constexpr float kStopping_m = 0.4f;  // How far a walk goes on that ends with the next step.
+constexpr float kInside_m = 0.4f;    // From the edge of the picture to a person who is in it.
 
 // Where feelings have their place on the activation-evaluation plane (after the words of Whissell's
 // dictionary as the thesis scales them), for the bearing.
@@ -87,25 +87,30 @@ void Stage::enter() {
   walker_.walk_to({0.0f, 0.0f}, 0.0f);
   phase_ = Phase::entering;
   clock_s_ = 0.0f;
-  walking_off_ = false;
+  walking_off_ = called_ = false;
   attention_ = {.value = kWalkingAttention};
 }
 
 // The shortest way to the visitor: one more step, then turn.
 void Stage::come_here() {
-  const float inner = std::max(setup_.half_width_m - kInside_m, 0.0f);
+  const bool stands = phase_ == Phase::leaving && !walking_off_;
+  const float inner = std::max(setup_.half_width_m - kInside_m, 0.1f);
   const float ahead = sin_of(walker_.heading_rad()) > 0.0f ? 1.0f : -1.0f;
-  const float x = walker_.place().x;
-  const float goal =
-      std::abs(x) < kStopShort_m ? 0.0f : std::clamp(x + ahead * kStopShort_m, -inner, inner);
-  if (phase_ != Phase::leaving || walking_off_) walker_.walk_to({goal, 0.0f}, 0.0f);
+  const float stops = walker_.place().x + ahead * kStopping_m;
+  // On her way out she may stop at the very edge: to come back takes longer than the camera.
+  const bool out = stops * ahead > 0.0f;
+  if (std::abs(stops) > (out ? setup_.half_width_m : inner))
+    walker_.walk_to({std::clamp(stops, -inner, inner), 0.0f}, 0.0f);
+  else if (!stands)
+    walker_.face(0.0f);
   phase_ = Phase::entering;
+  called_ = true;
   walking_off_ = false;
 }
 
 void Stage::leave() {
   phase_ = Phase::leaving;
-  walking_off_ = false;
+  walking_off_ = called_ = false;
 }
 
 void Stage::direct(float dt_s, const Intentions& will) {
@@ -116,7 +121,7 @@ void Stage::direct(float dt_s, const Intentions& will) {
       if (will.pressed) come_here();
       break;
     case Phase::entering:
-      if (will.pressed) come_here();
+      if (will.pressed && !called_) come_here();
       if (walker_.arrived()) phase_ = Phase::present;
       clock_s_ = 0.0f;
       break;
@@ -171,7 +176,7 @@ void Stage::step(float dt_s, const Intentions& will, Vec3 camera_m) {
   gestures_.apply(*skeleton_, body_);
   // The camera comes when she has all but turned to the visitor.
   const bool here = phase_ == Phase::present ||
-                    (phase_ == Phase::entering && std::abs(walker_.heading_rad()) < 0.5f);
+                    (phase_ == Phase::entering && std::abs(wrapped(walker_.heading_rad())) < 0.5f);
   near_.step(here ? 1.0f : 0.0f, kNearRate, dt);
   face_ = will.idle_face;
   turn_neck(dt, camera_m);
@@ -180,7 +185,7 @@ void Stage::step(float dt_s, const Intentions& will, Vec3 camera_m) {
 
 // The head turns to the visitor before and faster than the body does.
 void Stage::turn_neck(float dt_s, Vec3 camera_m) {
-  const bool walks = walker_.vigour() > 0.3f && phase_ != Phase::present;
+  const bool walks = walker_.vigour() > 0.3f && !called_;
   const float wanted = walking_off_ || phase_ == Phase::away ? 0.0f
                        : walks                               ? kWalkingAttention
                                                              : 1.0f;

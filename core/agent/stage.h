@@ -75,9 +75,10 @@ class Stage {
   float side_ = 1.0f;     // From which she comes; + is her left when she faces the visitor.
   float clock_s_ = 0.0f;  // Present: without a visitor. Away: since she went.
   bool walking_off_ = false;
-  Follower near_;       // Camera: 0 body, 1 head.
-  Follower neck_;       // Turn of the head against the trunk.
-  Follower attention_;  // How much eyes and head are for the visitor: 0..1.
+  bool called_ = false;  // A press has shortened this entrance.
+  Follower near_;        // Camera: 0 body, 1 head.
+  Follower neck_;        // Turn of the head against the trunk.
+  Follower attention_;   // How much eyes and head are for the visitor: 0..1.
   Follower eyes_[3];
   body::BapFrame body_;
   face::FapFrame face_;
