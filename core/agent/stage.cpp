@@ -15,7 +15,8 @@ using body::HanimJoint;
 
 constexpr float kAnglesPerRadian = 1e5f;  // FAP angles are 1e-5 rad.
 constexpr float kNearRate = 3.4f;         // Camera: 95 % of its way in 1.4 s.
-constexpr float kNeckRate = 7.0f;
+constexpr float kNeckRate = 12.0f;
+constexpr float kUpright = 0.8f;  // What the neck takes back of the trunk's tilt, for a visitor.
 constexpr float kAttentionRate = 5.0f;
 constexpr float kEyesRate = 3.5f;
 constexpr float kWalkingAttention = 0.55f;  // Who walks looks where she goes, too.
@@ -172,14 +173,14 @@ void Stage::step(float dt_s, const Intentions& will, Vec3 camera_m) {
   walker_.step(dt, body_);
   for (int bap = 1; bap <= body::kBapCount; ++bap)
     if (will.body.has(bap)) body_.set(bap, body_.get(bap) + will.body.get(bap));
-  gestures_.step(dt);
-  gestures_.apply(*skeleton_, body_);
   // The camera comes when she has all but turned to the visitor.
   const bool here = phase_ == Phase::present ||
                     (phase_ == Phase::entering && std::abs(wrapped(walker_.heading_rad())) < 0.5f);
   near_.step(here ? 1.0f : 0.0f, kNearRate, dt);
   face_ = will.idle_face;
   turn_neck(dt, camera_m);
+  gestures_.step(dt);
+  gestures_.apply(*skeleton_, body_);
   aim_eyes(dt, camera_m);
 }
 
@@ -194,12 +195,23 @@ void Stage::turn_neck(float dt_s, Vec3 camera_m) {
   const float aside = wrapped(atan2_of(way.x, way.y) - walker_.heading_rad());
   const float target = attention * std::clamp(aside, -kNeckTurn_rad, kNeckTurn_rad);
   const float turn = neck_.step(target, kNeckRate, dt_s);
+  add_neck(body::Axis::y, turn);
+  // A bearing that throws the chest out or bows the back leaves the face to the visitor.
+  float tilt = 0.0f;
+  for (std::size_t j = body::index_of(HanimJoint::vl5); j <= body::index_of(HanimJoint::skullbase);
+       ++j)
+    tilt += body::get_turn(body_, static_cast<HanimJoint>(j), body::Axis::x);
+  add_neck(body::Axis::x, -kUpright * attention * tilt);
+}
+
+// Shares a turn among the joints of the neck.
+void Stage::add_neck(body::Axis axis, float rad) {
   constexpr std::size_t kFirst = body::index_of(HanimJoint::vc7);
   constexpr std::size_t kCount = body::index_of(HanimJoint::skullbase) - kFirst + 1;
   for (std::size_t i = 0; i < kCount; ++i) {
     const auto joint = static_cast<HanimJoint>(kFirst + i);
-    const float own = body::get_turn(body_, joint, body::Axis::y);
-    body::set_turn(body_, joint, body::Axis::y, own + turn / static_cast<float>(kCount));
+    const float own = body::get_turn(body_, joint, axis);
+    body::set_turn(body_, joint, axis, own + rad / static_cast<float>(kCount));
   }
 }
 

@@ -6,6 +6,7 @@
 // Frame: the stage's (right-handed, metres, floor y = 0, the visitor towards +Z).
 // Deterministic for a seed and a sequence of steps; fixed memory; O(joints) a step.
 #include "core/agent/agent.h"
+#include "core/body/bap_axes.h"
 #include "core/body/gesture.h"
 #include "core/body/walker.h"
 
@@ -62,6 +63,7 @@ class Stage {
   void leave();
   void direct(float dt_s, const Intentions& will);
   void gesture(const Intentions& will);
+  void add_neck(body::Axis axis, float rad);
   void turn_neck(float dt_s, Vec3 camera_m);
   void aim_eyes(float dt_s, Vec3 camera_m);
 
