@@ -24,11 +24,12 @@ packages=(
   ca-certificates g++ cmake ninja-build pkg-config python3     # build
   libglm-dev libtomlplusplus-dev libcli11-dev                  # headers
   libgles-dev libegl-dev libx11-dev                            # display
+  libwayland-dev libwayland-bin wayland-protocols              # display on Wayland
   libegl-mesa0 libgl1-mesa-dri                                 # software rendering
   libgpiod-dev libhidapi-dev                                   # buttons
   libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
   fonts-dejavu-core                                            # captions
-  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth        # tests
+  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth weston # tests
   clang libclang-rt-14-dev clang-format                        # fuzzing and format
 )
 

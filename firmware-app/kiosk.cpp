@@ -415,7 +415,11 @@ bool Kiosk::draw(const Tick& tick) {
       return false;
     }
   }
-  return !display_ || display_->present().ok();
+  if (!display_) return true;
+  const Status shown = display_->present();
+  if (shown.code == Code::device_lost)
+    std::fputs("caryatid: the display was lost (its server or the GPU); start again\n", stderr);
+  return shown.ok();
 }
 
 void Kiosk::measure(const Tick& tick) {

@@ -1,9 +1,13 @@
 #include "platform/display/display.h"
 
 #include <cstdlib>
+#include <iterator>
 
 #include "platform/display/egl_context.h"
 #include "platform/display/surfaceless/surfaceless.h"
+#ifdef CARYATID_DISPLAY_WAYLAND
+#include "platform/display/wayland/wayland.h"
+#endif
 #ifdef CARYATID_DISPLAY_WINDOW
 #include "platform/display/window/window.h"
 #endif
@@ -11,26 +15,48 @@
 namespace caryatid::platform {
 namespace {
 
+struct WindowSystem {
+  const char* variable;  // Names the server where one runs.
+  Status (*open)(const DisplayOptions&, std::unique_ptr<Display>&, ErrorLine&);
+};
+
+// In the order in which they are tried: an X server on a Wayland desktop is the longer way.
+constexpr WindowSystem window_systems[] = {
+#ifdef CARYATID_DISPLAY_WAYLAND
+    {"WAYLAND_DISPLAY", open_wayland},
+#endif
+#ifdef CARYATID_DISPLAY_WINDOW
+    {"DISPLAY", open_window},
+#endif
+    {nullptr, nullptr}};
+
 Status not_built(const char* text, ErrorLine& out_error) {
   set_error(out_error, text);
   return {Code::unsupported, static_cast<std::uint16_t>(DisplayFault::not_built)};
 }
 
+// The first window system that answers; else what the last one that was named complained of.
 Status try_window(const DisplayOptions& options, std::unique_ptr<Display>& out,
                   ErrorLine& out_error) {
-#ifdef CARYATID_DISPLAY_WINDOW
-  return open_window(options, out, out_error);
-#else
-  (void)options, (void)out;
-  return not_built("this build has no window display; install libx11-dev and build again",
-                   out_error);
-#endif
+  if (std::size(window_systems) == 1)
+    return not_built("this build has no window display; see the packages of cross/host.sh",
+                     out_error);
+  set_error(out_error,
+            "no window system here: WAYLAND_DISPLAY and DISPLAY are not set; "
+            "use --display surfaceless");
+  Status status{Code::io, static_cast<std::uint16_t>(DisplayFault::no_display_server)};
+  for (const WindowSystem* system = window_systems; system->open != nullptr; ++system) {
+    const char* server = std::getenv(system->variable);
+    if (server == nullptr || server[0] == '\0') continue;
+    status = system->open(options, out, out_error);
+    if (status.ok()) break;
+  }
+  return status;
 }
 
 Status try_automatic(const DisplayOptions& options, std::unique_ptr<Display>& out,
                      ErrorLine& out_error) {
-  const char* server = std::getenv("DISPLAY");
-  if (server != nullptr && server[0] != '\0' && try_window(options, out, out_error).ok()) return {};
+  if (try_window(options, out, out_error).ok()) return {};
   return open_surfaceless(options, out, out_error);
 }
 

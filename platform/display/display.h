@@ -1,6 +1,6 @@
 #pragma once
 // The service that owns the screen and the GL context drawn on. Backends: gbm (DRM/KMS, boards),
-// window (X11), surfaceless (no screen: servers, CI, the tool).
+// wayland and window (X11), surfaceless (no screen: servers, CI, the tool).
 //
 // A display makes its context current on the thread that opened it and stays on that thread.
 #include <cstdint>
@@ -24,7 +24,7 @@ struct DisplayOptions {
 // Why a display did not open or stopped: Status::detail.
 enum class DisplayFault : std::uint16_t {
   none,
-  no_display_server,  // window: no X server answers.
+  no_display_server,  // window: no Wayland compositor or X server answers.
   no_egl,             // EGL or the platform extension is missing.
   no_config,          // No usable framebuffer configuration.
   no_context,         // The driver refuses GLES 2.
@@ -60,8 +60,9 @@ class Display {
   virtual Status present() = 0;
 };
 
-// Opens the display asked for; `automatic` tries drm, then window where DISPLAY is set, then
-// surfaceless. On failure `out` is empty and `out_error` holds one line.
+// Opens the display asked for; `window` is Wayland where WAYLAND_DISPLAY is set, else or when that
+// fails X11 where DISPLAY is; `automatic` tries drm, then window, then surfaceless. On failure
+// `out` is empty and `out_error` holds one line.
 Status open_display(const DisplayOptions& options, std::unique_ptr<Display>& out,
                     ErrorLine& out_error);
 

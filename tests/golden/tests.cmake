@@ -11,14 +11,29 @@ add_executable(golden_render ${CMAKE_CURRENT_LIST_DIR}/render_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/display_test.cpp)
 target_link_libraries(golden_render PRIVATE caryatid_golden caryatid_flags)
 add_test(NAME golden_render COMMAND golden_render)
+set_tests_properties(golden_render PROPERTIES ENVIRONMENT_MODIFICATION WAYLAND_DISPLAY=unset:)
 find_program(XVFB_RUN xvfb-run)
 if(X11_FOUND AND XVFB_RUN)
   add_executable(golden_window ${CMAKE_CURRENT_LIST_DIR}/window_test.cpp)
   target_link_libraries(golden_window PRIVATE caryatid_golden PkgConfig::X11 caryatid_flags)
   add_test(NAME golden_window COMMAND ${XVFB_RUN} -a -s "-screen 0 640x480x24"
     $<TARGET_FILE:golden_window>)
+  set_tests_properties(golden_window PROPERTIES ENVIRONMENT_MODIFICATION WAYLAND_DISPLAY=unset:)
 else()
   message(STATUS "tests: the window display is not tested (libx11-dev or xvfb is missing)")
+endif()
+find_program(WESTON weston)
+if(TARGET caryatid_xdg_shell AND NOT CMAKE_CROSSCOMPILING)
+  set(weston ${WESTON})
+  if(NOT WESTON)
+    set(weston)  # The tests that need it skip.
+  endif()
+  add_executable(golden_wayland ${CMAKE_CURRENT_LIST_DIR}/wayland_test.cpp)
+  target_link_libraries(golden_wayland PRIVATE caryatid_golden caryatid_flags)
+  target_compile_definitions(golden_wayland PRIVATE CARYATID_WESTON="${weston}"
+    CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CARYATID_PROGRAM="$<TARGET_FILE:caryatid>")
+  add_dependencies(golden_wayland caryatid)
+  add_test(NAME golden_wayland COMMAND golden_wayland)
 endif()
 
 # The whole program, as a user runs it, on the built-in face: replay bit for bit, pictures by
