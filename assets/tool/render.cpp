@@ -16,9 +16,8 @@ namespace caryatid::tool {
 namespace {
 
 struct RenderArgs {
-  std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", out;
+  std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", lod, out;
   int viseme = -1;
-  std::uint32_t lod = 0;
 };
 
 // "FILE@7" is frame 7 of FILE; without it the first.
@@ -59,7 +58,7 @@ void render(const RenderArgs& a) {
     throw std::runtime_error("--size " + a.size + ": wanted WIDTHxHEIGHT, 16..2048 each");
   Pose pose;
   pose.view = view_named(a.view);
-  pose.lod = a.lod;
+  if (!a.lod.empty()) set_lod(a.lod, &pose);
   if (!a.emotion.empty()) pose.faps = emotion_named(a.emotion);
   if (a.viseme >= 0) pose.faps = face::viseme_frame(a.viseme);
   if (!a.fap.empty()) {
@@ -87,7 +86,7 @@ void add_render(CLI::App& app) {
   cmd->add_option("--viseme", a->viseme, "0..14")->check(CLI::Range(0, 14));
   cmd->add_option("--bap", a->bap, "FILE or FILE@FRAME of a .bap text");
   cmd->add_option("--view", a->view, "front left right three-quarter bust body feet");
-  cmd->add_option("--lod", a->lod, "Triangles of the whole person (default all)");
+  cmd->add_option("--lod", a->lod, "Triangles: N of the whole person, or head=N (default all)");
   cmd->add_option("--size", a->size, "WIDTHxHEIGHT (default 800x800)");
   cmd->add_option("-o,--out", a->out, "OUT.png")->required();
   cmd->footer("example: caryatid-tool render --pack woman.pack --emotion joy:0.7 -o joy.png");

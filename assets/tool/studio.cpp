@@ -70,6 +70,9 @@ Picture Studio::picture(const Pose& pose) {
     levels.push_back(pose.lod == 0 ? o.max_triangle_count
                                    : static_cast<std::uint32_t>(std::uint64_t{pose.lod} *
                                                                 o.max_triangle_count / sum));
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (pose.head_lod != 0 && person_->view().objects[i].role == pack::ObjectRole::head)
+      levels[i] = pose.head_lod;
   person_->set_levels(levels);
   face::MixJob mix;
   mix.limits = &person_->limits();
@@ -113,6 +116,16 @@ scene::View view_named(const std::string& name) {
     if (name == n) return view;
   throw std::runtime_error("--view " + name +
                            ": wanted front, left, right, three-quarter, bust, body or feet");
+}
+
+void set_lod(const std::string& text, Pose* pose) {
+  const bool head = text.starts_with("head=");
+  const std::string number = text.substr(head ? 5 : 0);
+  std::uint32_t& value = head ? pose->head_lod : pose->lod;
+  const char* end = number.data() + number.size();
+  const auto [at, error] = std::from_chars(number.data(), end, value);
+  if (error != std::errc{} || at != end || value == 0)
+    throw std::runtime_error("--lod " + text + ": wanted triangles as N or head=N, from 1");
 }
 
 face::FapFrame emotion_named(const std::string& text) {

@@ -21,6 +21,7 @@ struct Pose {
   scene::View view = scene::View::head;
   std::optional<scene::Framing> framing = std::nullopt;  // In place of `view`.
   std::uint32_t lod = 0;                                 // Triangles of the whole person; 0: all.
+  std::uint32_t head_lod = 0;  // Triangles of the head alone; 0: by `lod`.
 };
 
 class Studio {
@@ -46,5 +47,7 @@ class Studio {
 scene::View view_named(const std::string& name);
 // "joy" or "joy:0.7"; throws on others. Weight 1 is the peak face.
 face::FapFrame emotion_named(const std::string& text);
+// --lod: "5000" for the whole person, "head=680" for the head alone; throws on others.
+void set_lod(const std::string& text, Pose* pose);
 
 }  // namespace caryatid::tool

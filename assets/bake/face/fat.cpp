@@ -146,6 +146,35 @@ class Tables {
   std::map<std::size_t, Carriers> carriers_;
 };
 
+// Lid rims and lip contours keep their line at every level: eyes and mouth close by them.
+void set_loops(const Head& head, Object* skin) {
+  constexpr std::uint32_t kLeastOfRim = 12, kLeastOfContour = 14;
+  std::map<std::uint32_t, std::uint32_t> of_base;  // One of the vertices of a texture seam will do.
+  for (std::uint32_t i = 0; i < skin->mesh.base_vertex.size(); ++i)
+    of_base.emplace(skin->mesh.base_vertex[i], i);
+  const auto add = [&](const char* name, const std::vector<std::uint32_t>& line,
+                       std::uint32_t least) {
+    Object::Loop loop{name, {}, least};
+    for (const std::uint32_t v : line) loop.vertices.push_back(of_base.at(head.skin.base[v]));
+    skin->loops.push_back(std::move(loop));
+  };
+  skin->loops.clear();
+  add("left lid rim", head.eye[0].rim, kLeastOfRim);
+  add("right lid rim", head.eye[1].rim, kLeastOfRim);
+  for (const bool inner : {true, false}) {
+    std::vector<std::uint32_t> line;
+    const auto at = [&](std::size_t side, std::size_t column) {
+      const Lips& lips = head.lips[side];
+      const bool upper = column <= kLipCorner;
+      return lips.row[inner ? (upper ? lips.upper_inner : lips.lower_inner)
+                            : (upper ? lips.upper_outer : lips.lower_outer)][column];
+    };
+    for (std::size_t c = 0; c < kLipColumns; ++c) line.push_back(at(0, c));
+    for (std::size_t c = kLipColumns - 2; c > 0; --c) line.push_back(at(1, c));
+    add(inner ? "inner lip contour" : "outer lip contour", line, kLeastOfContour);
+  }
+}
+
 }  // namespace
 
 void build_fat(Character& character, const BaseHuman& base, const WorkingRanges& ranges) {
@@ -159,6 +188,8 @@ void build_fat(Character& character, const BaseHuman& base, const WorkingRanges&
   add_bumps(head, reach, movements);
   std::stable_sort(movements.begin(), movements.end(),
                    [](const Movement& a, const Movement& b) { return a.fap < b.fap; });
+  for (Object& object : character.objects)
+    if (object.role == pack::ObjectRole::head) set_loops(head, &object);
   character.channels.clear();
   Tables tables(character, head);
   for (const Movement& movement : movements) tables.add(movement);
