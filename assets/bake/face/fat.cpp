@@ -148,7 +148,7 @@ class Tables {
 
 // Lid rims and lip contours keep their line at every level: eyes and mouth close by them.
 void set_loops(const Head& head, Object* skin) {
-  constexpr std::uint32_t kLeastOfRim = 12, kLeastOfContour = 14;
+  constexpr std::uint32_t kLeastOfRim = 16, kLeastOfContour = 20;
   std::map<std::uint32_t, std::uint32_t> of_base;  // One of the vertices of a texture seam will do.
   for (std::uint32_t i = 0; i < skin->mesh.base_vertex.size(); ++i)
     of_base.emplace(skin->mesh.base_vertex[i], i);
@@ -171,6 +171,10 @@ void set_loops(const Head& head, Object* skin) {
     };
     for (std::size_t c = 0; c < kLipColumns; ++c) line.push_back(at(0, c));
     for (std::size_t c = kLipColumns - 2; c > 0; --c) line.push_back(at(1, c));
+    // Around the corners the shade of the mouth must not spread over the cheek.
+    for (const std::size_t side : {0u, 1u})
+      for (const std::uint32_t v : head.skin.neighbours[at(side, kLipCorner)])
+        skin->locked.push_back(of_base.at(head.skin.base[v]));
     add(inner ? "inner lip contour" : "outer lip contour", line, kLeastOfContour);
   }
 }
