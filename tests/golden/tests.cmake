@@ -24,12 +24,15 @@ else()
 endif()
 find_program(WESTON weston)
 if(TARGET caryatid_xdg_shell AND NOT CMAKE_CROSSCOMPILING)
+  pkg_check_modules(WAYLAND_SERVER REQUIRED IMPORTED_TARGET wayland-server)
   set(weston ${WESTON})
   if(NOT WESTON)
     set(weston)  # The tests that need it skip.
   endif()
-  add_executable(golden_wayland ${CMAKE_CURRENT_LIST_DIR}/wayland_test.cpp)
-  target_link_libraries(golden_wayland PRIVATE caryatid_golden caryatid_flags)
+  add_executable(golden_wayland ${CMAKE_CURRENT_LIST_DIR}/wayland_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/toy_compositor.cpp)
+  target_link_libraries(golden_wayland PRIVATE caryatid_golden caryatid_xdg_shell
+    PkgConfig::WAYLAND_SERVER caryatid_flags)
   target_compile_definitions(golden_wayland PRIVATE CARYATID_WESTON="${weston}"
     CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CARYATID_PROGRAM="$<TARGET_FILE:caryatid>")
   add_dependencies(golden_wayland caryatid)
