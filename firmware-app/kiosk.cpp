@@ -48,9 +48,13 @@ bool load_config(const std::string& path, Config* out, std::string* out_error) {
   return read_text(path, &text, out_error) && parse_config(text, path, out, out_error);
 }
 
-// Whole bodies know the soles on which they walk.
+// A bust has the joints of a whole skeleton, but nothing of it reaches the floor.
 bool has_legs(const pack::View& pack) {
-  return pack::find_feature_point(pack, pack::kSoleGroup, 1) != nullptr;
+  constexpr float kFoot_m = 0.1f;
+  for (const pack::Object& o : pack.objects)
+    for (const pack::Vertex& v : pack.versions.subspan(o.first_version, o.base_vertex_count))
+      if (v.position_m[1] < kFoot_m) return true;
+  return false;
 }
 
 scene::View view_of(const std::string& name) {
@@ -208,6 +212,7 @@ bool Kiosk::start() {
   lod_config.vblank_us = 1e6f / refresh_hz;
   lod_config.vblanks_per_frame = static_cast<std::uint16_t>(std::max(vblanks + 0.5f, 1.0f));
   lod_config.prior = costs != nullptr ? *costs : lod::boards()[0];
+  vblanks_per_frame_ = lod_config.vblanks_per_frame;
   budget_ = std::make_unique<lod::BudgetController>(lod_config);
   if (options_.virtual_clock && costs != nullptr)
     board_ = std::make_unique<lod::VirtualBoard>(*costs, lod_config.vblanks_per_frame);
@@ -356,37 +361,39 @@ void Kiosk::act(const Tick& tick) {
     if (player_.faps() != nullptr) mix = {.stream = player_.faps(), .limits = &person_.limits()};
     if (player_.baps() != nullptr) baps = player_.baps();
   }
-  choose_levels(tick);
+  choose_levels(tick, will);
   person_.show(mix.run(), *baps, Affine{}, tick.dt_s);
 }
 
-lod::SceneNeeds Kiosk::needs() {
-  const bool felt = agent_ != nullptr && events_.size() > 0;
+lod::SceneNeeds Kiosk::needs(bool busy) {
   for (std::size_t o = 0; o < person_.object_count(); ++o)
     object_needs_[o] = object_need(person_.view().objects[o], list_, person_, o, renderer_->width(),
-                                   renderer_->height(), felt);
+                                   renderer_->height(), busy);
   lod::SceneNeeds n;
   n.objects = {object_needs_.data(), person_.object_count()};
   n.display_px = static_cast<float>(renderer_->width()) * static_cast<float>(renderer_->height());
+  n.idle = !busy && !player_.active();
   return n;
 }
 
-void Kiosk::choose_levels(const Tick& tick) {
+// A decision that may wait is held back until the eyes shut or jump, or its time is over; then the
+// meshes go towards it by as many records a frame as the budget allows.
+void Kiosk::choose_levels(const Tick& tick, const agent::Intentions& will) {
   if (fixed_) return;
-  const lod::SceneNeeds wanted = needs();
-  const lod::LodDecision& d =
-      frame_number_ == 0 ? budget_->begin(wanted) : budget_->step(sample_, wanted);
-  if (d.sequence == decision_seen_ && frame_number_ > 0 && refinement_ended_) return;
-  decision_wait_s_ += tick.dt_s;
-  const bool may_wait = decision_wait_s_ * 1000.0f < static_cast<float>(d.cover_wait_ms);
-  if (may_wait && d.change != lod::Change::reduce) return;
-  decision_seen_ = d.sequence;
-  decision_wait_s_ = 0.0f;
-  const std::span<const std::uint32_t> triangles{d.triangles.data(), d.object_count};
-  if (d.morph_ms > 0)
-    person_.morph_to(triangles, static_cast<float>(d.morph_ms) * 1e-3f);
-  else
-    person_.set_levels(triangles);
+  const lod::SceneNeeds wanted = needs(will.busy || (stage_ && stage_->moving()));
+  const bool first = frame_number_ == 0;
+  const lod::LodDecision& d = first ? budget_->begin(wanted) : budget_->step(sample_, wanted);
+  if (first || d.sequence != decision_seen_) {
+    decision_wait_s_ += tick.dt_s;
+    const bool over = decision_wait_s_ * 1000.0f >= static_cast<float>(d.cover_wait_ms);
+    if (first || will.covers_change || over) {
+      decision_seen_ = d.sequence;
+      decision_wait_s_ = 0.0f;
+      levels_ = d.triangles;
+    }
+  }
+  person_.approach({levels_.data(), person_.object_count()}, d.max_records_per_frame,
+                   static_cast<float>(d.morph_ms) * 1e-3f);
 }
 
 bool Kiosk::draw(const Tick& tick) {
@@ -427,6 +434,7 @@ void Kiosk::measure(const Tick& tick) {
   lod::Work work;
   work.triangles = renderer_->last_cost().triangles;
   work.vertices_deformed = person_.deformed_vertices();
+  work.records = person_.records();
   const float scale = list_.render_scale;
   work.target_px = static_cast<float>(renderer_->width() * renderer_->height()) * scale * scale;
   work.shaded_px =
@@ -438,6 +446,7 @@ void Kiosk::measure(const Tick& tick) {
     sample_ = {};
     sample_.time_us = static_cast<std::uint64_t>(now_us);
     sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us);
+    if (display_) sample_.vblanks = display_->vblanks();
     sample_.drawn = work;
     sample_.thermal = static_cast<lod::ThermalLevel>(heat_.heat);
   }
@@ -447,7 +456,9 @@ void Kiosk::measure(const Tick& tick) {
   m.cpu_ms = sample_.cpu_us == lod::FrameSample::kUnknown ? 0.0 : sample_.cpu_us * 1e-3;
   m.gpu_ms = sample_.gpu_us == lod::FrameSample::kUnknown ? -1.0 : sample_.gpu_us * 1e-3;
   const double cost_us = (m.cpu_ms + std::max(m.gpu_ms, 0.0)) * 1e3;
-  m.late = cost_us > period_us;
+  // A flip is late by its display's count of refreshes; without one, when its work took too long.
+  const unsigned due_vblanks = vblanks_per_frame_ * budget_->decision().frame_divisor;
+  m.late = sample_.vblanks > 0 ? sample_.vblanks > due_vblanks : cost_us > period_us;
   m.frame_ms = board_ ? std::max(cost_us, period_us) * 1e-3 : static_cast<double>(tick.dt_s) * 1e3;
   m.triangles = person_.triangle_count();
   std::array<std::uint32_t, kMaxObjects> lod{};

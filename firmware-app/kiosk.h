@@ -74,13 +74,13 @@ class Kiosk {
   float picture_aspect() const;
   void aim_camera();
   void act(const Tick& tick);
-  void choose_levels(const Tick& tick);
+  void choose_levels(const Tick& tick, const agent::Intentions& will);
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
   void watch(bool shown);
   void print_memory();
   void fix_levels();
-  lod::SceneNeeds needs();
+  lod::SceneNeeds needs(bool busy);
 
   Options options_;
   Config config_;
@@ -111,6 +111,8 @@ class Kiosk {
   std::array<lod::ObjectNeed, kMaxObjects> object_needs_{};
   std::array<std::uint32_t, kMaxObjects> fixed_levels_{};
   bool fixed_ = false;
+  std::array<std::uint32_t, kMaxObjects> levels_{};  // Of the decision that is being carried out.
+  unsigned vblanks_per_frame_ = 1;
   std::uint32_t decision_seen_ = 0;
   float decision_wait_s_ = 0.0f;
   lod::FrameSample sample_;

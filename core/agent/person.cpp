@@ -121,9 +121,19 @@ void Person::set_levels(std::span<const std::uint32_t> triangles) {
     parts_[o].mesh.set_level(triangles[o]);
 }
 
-void Person::morph_to(std::span<const std::uint32_t> triangles, float duration_s) {
-  for (std::size_t o = 0; o < std::min(object_count(), triangles.size()); ++o)
-    parts_[o].mesh.morph_to_level(triangles[o], duration_s);
+void Person::approach(std::span<const std::uint32_t> triangles, std::uint32_t max_records,
+                      float duration_s) {
+  std::uint32_t left = 2 * max_records;  // A record adds or takes two triangles inside a surface.
+  for (std::size_t o = 0; o < std::min(object_count(), triangles.size()) && left > 0; ++o) {
+    mesh::LiveMesh& m = parts_[o].mesh;
+    if (duration_s > 0.0f && m.morphing()) continue;
+    const std::uint32_t now = m.triangle_count();
+    const std::uint32_t next = triangles[o] > now ? now + std::min(triangles[o] - now, left)
+                                                  : now - std::min(now - triangles[o], left);
+    m.morph_to_level(next, duration_s);
+    const std::uint32_t reached = m.target_triangle_count();
+    left -= std::min(left, reached > now ? reached - now : now - reached);
+  }
 }
 
 void Person::show(const face::FapFrame& faps, const body::BapFrame& baps, const Affine& place,
@@ -185,6 +195,7 @@ void Person::refresh_views() {
 
 void Person::collect_patches(FixedVector<scene::MeshPatch, kMaxObjects>* out) {
   out->clear();
+  records_ = 0;
   for (std::size_t o = 0; o < object_count(); ++o) {
     Part& part = parts_[o];
     scene::MeshPatch patch{static_cast<std::uint16_t>(o), part.mesh.dirty_dynamic(),
@@ -196,6 +207,9 @@ void Person::collect_patches(FixedVector<scene::MeshPatch, kMaxObjects>* out) {
     }
     part.dirty = {};
     part.mesh.clear_dirty();
+    const std::uint32_t applied = part.mesh.applied();
+    records_ += std::max(applied, part.applied) - std::min(applied, part.applied);
+    part.applied = applied;
     if (patch.dynamic.count + patch.fixed.count + patch.indices.count > 0) (void)out->push(patch);
   }
 }

@@ -2,7 +2,7 @@
 // The person that a pack describes, alive: meshes at their present level of detail, skeleton, face
 // tables. Takes the frame's FAPs and BAPs and gives what the scene needs to draw.
 //
-// Order of a frame: refine() as bytes arrive -> set_levels() or morph_to() -> show() -> meshes(),
+// Order of a frame: refine() as bytes arrive -> set_levels() or approach() -> show() -> meshes(),
 // joints(), collect_patches() for the draw list.
 #include <array>
 #include <span>
@@ -33,9 +33,13 @@ class Person {
 
   std::size_t object_count() const { return view_.objects.size(); }
   std::uint32_t triangle_count() const;  // Live, of all objects.
-  // Finest level of every object within its number of triangles; at once or by geomorph.
+  // Finest level of every object within its number of triangles, at once.
   void set_levels(std::span<const std::uint32_t> triangles);
-  void morph_to(std::span<const std::uint32_t> triangles, float duration_s);
+  // One step towards these levels, of about `max_records` collapse records at most, object by
+  // object: at once (duration_s 0) or by geomorphs, of which each object has one at a time. Call
+  // every frame; does nothing once they are reached.
+  void approach(std::span<const std::uint32_t> triangles, std::uint32_t max_records,
+                float duration_s);
 
   // Deforms and poses. `faps` comes from face::MixJob; `place` moves the posed body in the world.
   // Geomorphs advance by dt_s. O(live vertices + moves + joints).
@@ -58,6 +62,8 @@ class Person {
   Vec3 feature_point_m(int group, int index) const;
   // Vertices that show() deformed in the last frame, for the cost model.
   std::uint32_t deformed_vertices() const { return deformed_; }
+  // Collapse records applied or undone between the last two collect_patches(), for the cost model.
+  std::uint32_t records() const { return records_; }
 
  private:
   struct Part {
@@ -66,6 +72,7 @@ class Person {
     mesh::SplitChecker checker;
     mesh::DirtyRange dirty;  // Of the dynamic vertices, by deformation.
     std::uint32_t checked = 0;
+    std::uint32_t applied = 0;  // Splits, at the last collect_patches().
     bool broken = false;
     bool deforms = false;  // Has moves at all.
   };
@@ -85,6 +92,7 @@ class Person {
   face::FapFrame rest_face_;
   face::TransformGeometry geometry_;
   std::uint32_t deformed_ = 0;
+  std::uint32_t records_ = 0;
 };
 
 }  // namespace caryatid::agent

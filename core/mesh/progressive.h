@@ -70,6 +70,8 @@ class LiveMesh {
   // Splits that have arrived and been checked; grows while the file loads. Starts at 0.
   void set_available(std::uint32_t split_count) { available_ = split_count; }
   std::uint32_t available() const { return available_; }
+  // Splits applied; its change over a frame is the records that the frame paid for.
+  std::uint32_t applied() const { return cursor_; }
 
   // Shows the finest level of at most `triangles` (the base mesh if that is already more). Ends a
   // geomorph at once. O(records that differ), about 0.1 us each on a PC; a reorder record among

@@ -58,6 +58,8 @@ class Display {
   // Shows what was drawn; on a screen waits for the next refresh where the driver does.
   // device_lost (context_lost): everything on the GPU is gone.
   virtual Status present() = 0;
+  // Refresh periods between the last two flips by the screen's own count; 0: it can't tell.
+  virtual std::uint16_t vblanks() const { return 0; }
 };
 
 // Opens the display asked for; `window` is Wayland where WAYLAND_DISPLAY is set, else or when that
