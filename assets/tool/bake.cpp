@@ -59,6 +59,15 @@ void print_report(const bake::PackReport& r) {
   for (const auto& o : r.objects)
     std::printf("  %-14s %6u triangles, base %5u, %6u versions\n", o.name.c_str(), o.triangles,
                 o.base_triangles, o.versions);
+  float worst_fapu = 0;
+  std::uint32_t lost = 0;
+  for (const auto& e : r.animation) {
+    worst_fapu = std::max(worst_fapu, e.worst_fapu);
+    lost = std::max(lost, e.lost_points);
+  }
+  std::printf(
+      "  feature points of the base head: off by %.3g FAPU at most over %zu FAPs, %u lost\n",
+      double(worst_fapu), r.animation.size(), lost);
   std::uint64_t sum = 0;
   for (const auto& s : r.sections) {
     std::printf("  %-14s %9u bytes\n", s.name.c_str(), s.bytes);

@@ -108,6 +108,7 @@ class Writer {
       {SectionId::texels, sizeof(std::byte), {}},
   };
   std::vector<pack::Object> objects_;
+  std::vector<AnimationError> animation_;  // Of the head.
   std::vector<ObjectHistory> histories_;
   std::vector<std::vector<StageEnd>> stages_;  // By object.
   std::vector<pack::Texture> textures_;
@@ -176,6 +177,8 @@ void Writer::put_object(std::uint32_t index) {
       static_cast<std::uint32_t>(options_.base_fraction[static_cast<std::size_t>(source.role)] *
                                  static_cast<double>(source.mesh.triangles.size()));
   ObjectHistory history = simplify_object(source, options);
+  if (source.role == pack::ObjectRole::head)
+    animation_ = animation_error(character_, index, history, options.base_triangles);
   if (!options_.refine) {
     history.splits.clear();
     history.versions.resize(history.base_vertex_count);
@@ -417,6 +420,7 @@ std::vector<std::byte> Writer::assemble(PackReport* report) {
   append(&file, tables.data(), tables.size());
   append(&file, payload.data(), payload.size());
   if (report != nullptr) {
+    report->animation = animation_;
     char text[5];
     for (const SectionBytes& s : sections_)
       report->sections.push_back({name_of(s.id, text), static_cast<std::uint32_t>(s.bytes.size())});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/bake/model.h"
+#include "assets/bake/simplify/animation_error.h"
 #include "assets/bake/simplify/object_history.h"
 
 namespace caryatid::bake {
@@ -34,6 +35,7 @@ struct PackReport {
     std::string name;
     std::uint32_t base_triangles = 0, triangles = 0, versions = 0, splits = 0;
   };
+  std::vector<AnimationError> animation;  // Of the head's base level, before quantisation.
   std::vector<Section> sections;
   std::vector<Object> objects;
   std::uint32_t file_bytes = 0, base_part_bytes = 0, arena_bytes = 0;

@@ -9,6 +9,7 @@
 #include "assets/bake/face/head.h"
 #include "assets/bake/face/movement.h"
 #include "assets/bake/human/build.h"
+#include "assets/bake/simplify/animation_error.h"
 #include "core/face/fap_table.h"
 #include "core/face/fat.h"
 
@@ -194,6 +195,35 @@ TEST_P(Fat, MovesAreSparseFiniteAndFitThePack) {
   }
   EXPECT_LT(count, 150000u);
   EXPECT_GT(count, 10000u);
+}
+
+// A coarser head moves its feature points as the full one does, at the levels of thesis figure 3-6.
+TEST_P(Fat, FeaturePointsMoveAlikeAtEveryLevel) {
+  for (std::uint32_t o = 0; o < character().objects.size(); ++o) {
+    Object skin = character().objects[o];
+    if (skin.role != pack::ObjectRole::head) continue;
+    const ObjectOptions options{.base_triangles = 640, .pose_weight = 10.0};
+    // Without locks the same measure must see a difference, else it measures nothing.
+    skin.locked.clear();
+    const ObjectHistory loose = simplify_object(skin, options);
+    for (const FeaturePoint& p : character().feature_points)
+      if (p.object == o) skin.locked.push_back(p.vertex);
+    const ObjectHistory held = simplify_object(skin, options);
+    float moved_fapu = 0, loose_fapu = 0;
+    std::uint32_t lost = 0;
+    for (const std::uint32_t level : {2141u, 1929u, 1307u, 680u})
+      for (const AnimationError& e : animation_error(character(), o, held, level)) {
+        EXPECT_EQ(e.worst_fapu, 0.0f) << "FAP " << e.fap << " at " << level;
+        EXPECT_EQ(e.lost_points, 0u) << "FAP " << e.fap << " at " << level;
+        moved_fapu = std::max(moved_fapu, e.moved_fapu);
+      }
+    for (const AnimationError& e : animation_error(character(), o, loose, 680)) {
+      loose_fapu = std::max(loose_fapu, e.worst_fapu);
+      lost = std::max(lost, e.lost_points);
+    }
+    EXPECT_GT(moved_fapu, 100.0f);
+    EXPECT_GT(loose_fapu + static_cast<float>(lost), 1.0f);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Characters, Fat, testing::Values(std::size_t{0}, std::size_t{1}),
