@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace caryatid;
   if (size < 2 || size > (1u << 20)) return 0;
   std::vector<std::byte> file(size - 2);
-  std::memcpy(file.data(), data + 2, size - 2);
+  if (!file.empty()) std::memcpy(file.data(), data + 2, file.size());
   if ((data[0] & 1) != 0) seal(file);
   const Result<pack::PackHeader> header = pack::read_header(file);
   if (!header.ok() || header.value.image_bytes > (8u << 20)) return 0;

@@ -63,7 +63,7 @@ int hid_read_timeout(hid_device* device, unsigned char* data, size_t length, int
   const std::vector<std::uint8_t> report = hid.reports.front();
   hid.reports.pop_front();
   const std::size_t size = std::min(length, report.size());
-  std::memcpy(data, report.data(), size);
+  if (size > 0) std::memcpy(data, report.data(), size);
   return static_cast<int>(size);
 }
 
