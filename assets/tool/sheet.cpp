@@ -5,8 +5,12 @@
 #include <random>
 #include <stdexcept>
 
+#include "assets/bake/mesh_io/mesh_io.h"
+#include "assets/bake/mesh_io/repair.h"
+#include "assets/bake/simplify/history.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_sheet.h"
+#include "assets/tool/raster.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
 #include "core/face/fap_table.h"
@@ -16,7 +20,7 @@ namespace caryatid::tool {
 namespace {
 
 struct SheetArgs {
-  std::string pack, what, out, mood;
+  std::string pack, mesh, what, out, mood, lod;
   std::uint32_t cell = 400;
   long shuffle = -1;
 };
@@ -26,11 +30,12 @@ struct Cells {
   std::vector<std::string> captions;
 };
 
-Cells emotions(Studio* studio) {
+Cells emotions(Studio* studio, const std::string& lod) {
   Cells cells;
   for (const std::string_view name : emotion::kEmotionNames) {
     Pose pose;
     pose.faps = emotion_named(std::string(name));
+    if (!lod.empty()) set_lod(lod, &pose);
     cells.pictures.push_back(studio->picture(pose));
     cells.captions.emplace_back(name);
   }
@@ -72,15 +77,60 @@ Cells faps(Studio* studio) {
   return cells;
 }
 
-Cells lods(Studio* studio) {
-  Cells cells;
-  std::uint32_t all = studio->person().view().character->total_triangles;
-  for (const double share : {1.0, 0.5, 0.25, 0.12, 0.06, 0.03}) {
-    Pose pose;
-    pose.lod = static_cast<std::uint32_t>(share * all);
-    cells.pictures.push_back(studio->picture(pose));
-    cells.captions.push_back(std::to_string(studio->person().triangle_count()) + " triangles");
+bake::Surface head_surface(const agent::Person& person) {
+  bake::Surface out;
+  for (std::size_t o = 0; o < person.object_count(); ++o) {
+    if (person.view().objects[o].role != pack::ObjectRole::head) continue;
+    const scene::MeshView& mesh = person.meshes()[o];
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v)
+      out.position.emplace_back(mesh.dynamic[v].position_m);
+    for (std::size_t i = 0; i < 3 * std::size_t{mesh.triangle_count}; i += 3)
+      out.triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
   }
+  return out;
+}
+
+void add_wireframes(const std::vector<Picture>& wireframes, Cells* cells) {
+  cells->pictures.insert(cells->pictures.end(), wireframes.begin(), wireframes.end());
+  cells->captions.resize(cells->pictures.size());
+}
+
+// The levels of the head in thesis figure 3-6, shaded and as wireframe.
+Cells lods(Studio* studio, std::uint32_t side) {
+  Cells cells;
+  std::vector<Picture> wireframes;
+  for (const std::uint32_t faces : {2141u, 1929u, 1307u, 680u}) {
+    Pose pose;
+    pose.head_lod = faces;
+    cells.pictures.push_back(studio->picture(pose));
+    const bake::Surface head = head_surface(studio->person());
+    cells.captions.push_back(std::to_string(head.triangles.size()) + " faces of the head");
+    wireframes.push_back(draw_surface(head, whole_of(head, 0, 0), true, side));
+  }
+  add_wireframes(wireframes, &cells);
+  return cells;
+}
+
+// Any mesh at full, half, a quarter and a tenth, as thesis figures 3-4 and 3-5.
+Cells mesh_lods(const std::string& path, std::uint32_t side) {
+  bake::RepairReport repairs;
+  const bake::Surface original = bake::repair_surface(bake::read_mesh(path), &repairs);
+  if (original.triangles.empty()) throw bake::MeshError(path + ":1: no face is left after repair");
+  const RasterView view = whole_of(original, 0.5, 0.5);
+  bake::CollapseOptions options;
+  options.target_triangles = 0;
+  const bake::History history = bake::record_history(original, options);
+  bake::HistoryCursor cursor(history);
+  Cells cells;
+  std::vector<Picture> wireframes;
+  for (const double share : {1.0, 0.5, 0.25, 0.1}) {
+    cursor.go_to(static_cast<std::uint32_t>(share * history.max_triangles()));
+    const bake::Surface level = cursor.surface();
+    cells.pictures.push_back(draw_surface(level, view, false, side));
+    cells.captions.push_back(std::to_string(level.triangles.size()) + " faces");
+    wireframes.push_back(draw_surface(level, view, true, side));
+  }
+  add_wireframes(wireframes, &cells);
   return cells;
 }
 
@@ -100,10 +150,15 @@ void shuffle(unsigned seed, Cells* cells) {
 }
 
 void sheet(const SheetArgs& a) {
+  if (!a.mesh.empty()) {
+    const Cells levels = mesh_lods(a.mesh, a.cell);
+    write_png(grid(levels.pictures, levels.captions, 4), a.out);
+    return;
+  }
   Studio studio(a.pack, a.cell, a.cell);
   Cells cells;
   std::uint32_t columns = 4;
-  if (a.what == "emotions") cells = emotions(&studio);
+  if (a.what == "emotions") cells = emotions(&studio, a.lod);
   if (a.what == "visemes") cells = visemes(&studio), columns = 5;
   if (a.what == "faps") cells = faps(&studio), columns = 10;
   if (a.what == "gait") {
@@ -117,7 +172,7 @@ void sheet(const SheetArgs& a) {
     cells = {gait.pictures, gait.captions};
     columns = a.mood.empty() ? 4 : 8;
   }
-  if (a.what == "lods") cells = lods(&studio), columns = 3;
+  if (a.what == "lods") cells = lods(&studio, a.cell);
   if (a.shuffle >= 0) shuffle(static_cast<unsigned>(a.shuffle), &cells);
   write_png(grid(cells.pictures, cells.captions, columns), a.out);
 }
@@ -130,7 +185,10 @@ void add_sheet(CLI::App& app) {
   cmd->add_option("what", a->what, "emotions visemes faps lods gait")
       ->required()
       ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods", "gait"}));
-  cmd->add_option("--pack", a->pack, "The character")->required();
+  CLI::Option* pack = cmd->add_option("--pack", a->pack, "The character");
+  CLI::Option* mesh = cmd->add_option("--mesh", a->mesh, "lods: any .obj, .off or .ply instead");
+  mesh->excludes(pack);
+  cmd->add_option("--lod", a->lod, "emotions: triangles, N or head=N (default all)");
   cmd->add_option("--cell", a->cell, "Pixels of a picture (default 400)")
       ->check(CLI::Range(64, 1024));
   cmd->add_option("--mood", a->mood,
@@ -141,7 +199,11 @@ void add_sheet(CLI::App& app) {
                   "Seed: numbers in place of captions, in random order; the key goes to stdout");
   cmd->add_option("-o,--out", a->out, "OUT.png")->required();
   cmd->footer("example: caryatid-tool sheet emotions --pack woman.pack -o emotions.png");
-  cmd->callback([a] { sheet(*a); });
+  cmd->callback([a] {
+    if (a->pack.empty() && (a->mesh.empty() || a->what != "lods"))
+      throw CLI::ValidationError("sheet", "give --pack PACK, or for lods --mesh FILE");
+    sheet(*a);
+  });
 }
 
 }  // namespace caryatid::tool
