@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "assets/bake/human/build.h"
 #include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/mesh_io/repair.h"
 #include "assets/bake/simplify/distance.h"
@@ -150,10 +151,45 @@ void add_mesh(const std::string& name, std::function<Surface()> make, bool measu
     }
 }
 
+// The skin of the whole base human (26756 faces), unmorphed.
+Surface body_skin() {
+  const bake::BaseHuman base(bake::BaseHuman::default_folder());
+  Surface out;
+  for (const Vec3& p : base.rest_m()) out.position.emplace_back(p);
+  for (const bake::Quad& q : base.quads()) {
+    if (q.group != 0) continue;
+    out.triangles.push_back({q.vertex[0], q.vertex[1], q.vertex[2]});
+    out.triangles.push_back({q.vertex[0], q.vertex[2], q.vertex[3]});
+  }
+  bake::RepairReport repairs;
+  return bake::repair_surface(std::move(out), &repairs);
+}
+
+// The skin of the woman's head (8508 faces), its texture seams closed.
+Surface head_skin() {
+  const std::string folder = CARYATID_SOURCE_DIR "/assets/characters/";
+  const bake::BaseHuman base(bake::BaseHuman::default_folder());
+  const bake::Character woman =
+      bake::build_character(bake::read_recipe(folder + "woman.toml"), base,
+                            bake::read_feature_points(folder + "feature_points.toml", base));
+  Surface out;
+  for (const bake::Object& object : woman.objects) {
+    if (object.role != pack::ObjectRole::head) continue;
+    for (const Vec3& p : object.mesh.position_m) out.position.emplace_back(p);
+    out.triangles = object.mesh.triangles;
+  }
+  bake::RepairReport repairs;
+  return bake::repair_surface(std::move(out), &repairs);
+}
+
 bool register_all() {
   const std::vector<double> levels = {0.5, 0.25, 0.12, 0.06, 0.03};
   add_mesh(
       "ball_20k", [] { return bake::ball(72, 0.15); }, true, levels);
+  if (!bake::BaseHuman::missing(bake::BaseHuman::default_folder())) {
+    add_mesh("head_skin", head_skin, true, levels);
+    add_mesh("body_skin", body_skin, true, levels);
+  }
   if (const char* data = std::getenv("CARYATID_TEST_DATA"); data != nullptr)
     for (const char* name : {"spot", "teapot", "stanford-bunny"}) {
       const std::filesystem::path path =

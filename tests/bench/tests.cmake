@@ -23,5 +23,6 @@ add_test(NAME bench_mesh COMMAND caryatid-bench --filter mesh/rebuild)
 add_test(NAME bench_simplify COMMAND caryatid-bench --filter simplify/ball_20k/ours/3)
 add_test(NAME bench_body COMMAND caryatid-bench --filter body/)
 target_compile_definitions(caryatid-bench PRIVATE
+  CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
   CARYATID_BUILTIN_PACK="${CMAKE_SOURCE_DIR}/firmware-app/builtin_face.pack")
 add_test(NAME bench_frame COMMAND caryatid-bench --filter frame/)
