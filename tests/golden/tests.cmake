@@ -52,7 +52,7 @@ add_dependencies(golden_program caryatid)
 add_test(NAME golden_program COMMAND golden_program)
 set_tests_properties(golden_program PROPERTIES TIMEOUT 900)
 if(CARYATID_SANITIZE)
-  # Mesa and X11 keep some hundred bytes until the process ends; our own leaks show in every other test.
+  # Mesa and X11 keep some hundred bytes until the process ends; our leaks show in the other tests.
   foreach(name golden_render golden_window golden_wayland golden_program)
     if(TEST ${name})
       set_tests_properties(${name} PROPERTIES ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
