@@ -148,7 +148,7 @@ class Tables {
 
 // Lid rims and lip contours keep their line at every level: eyes and mouth close by them.
 void set_loops(const Head& head, Object* skin) {
-  constexpr std::uint32_t kLeastOfRim = 16, kLeastOfContour = 20;
+  constexpr std::uint32_t kLeastOfRim = 16, kLeastOfContour = 20, kLeastOfRed = 16;
   std::map<std::uint32_t, std::uint32_t> of_base;  // One of the vertices of a texture seam will do.
   for (std::uint32_t i = 0; i < skin->mesh.base_vertex.size(); ++i)
     of_base.emplace(skin->mesh.base_vertex[i], i);
@@ -161,21 +161,26 @@ void set_loops(const Head& head, Object* skin) {
   skin->loops.clear();
   add("left lid rim", head.eye[0].rim, kLeastOfRim);
   add("right lid rim", head.eye[1].rim, kLeastOfRim);
-  for (const bool inner : {true, false}) {
+  // Inner and outer contour, and the red between them, or the mouth's shade would reach over it.
+  enum Line { inner, red, outer };
+  for (const Line which : {inner, red, outer}) {
     std::vector<std::uint32_t> line;
     const auto at = [&](std::size_t side, std::size_t column) {
       const Lips& lips = head.lips[side];
       const bool upper = column <= kLipCorner;
-      return lips.row[inner ? (upper ? lips.upper_inner : lips.lower_inner)
-                            : (upper ? lips.upper_outer : lips.lower_outer)][column];
+      const std::size_t from = upper ? lips.upper_inner : lips.lower_inner;
+      const std::size_t to = upper ? lips.upper_outer : lips.lower_outer;
+      return lips.row[which == inner ? from : which == outer ? to : (from + to) / 2][column];
     };
     for (std::size_t c = 0; c < kLipColumns; ++c) line.push_back(at(0, c));
     for (std::size_t c = kLipColumns - 2; c > 0; --c) line.push_back(at(1, c));
     // Around the corners the shade of the mouth must not spread over the cheek.
-    for (const std::size_t side : {0u, 1u})
-      for (const std::uint32_t v : head.skin.neighbours[at(side, kLipCorner)])
-        skin->locked.push_back(of_base.at(head.skin.base[v]));
-    add(inner ? "inner lip contour" : "outer lip contour", line, kLeastOfContour);
+    if (which != red)
+      for (const std::size_t side : {0u, 1u})
+        for (const std::uint32_t v : head.skin.neighbours[at(side, kLipCorner)])
+          skin->locked.push_back(of_base.at(head.skin.base[v]));
+    constexpr const char* kNames[] = {"inner lip contour", "lip red", "outer lip contour"};
+    add(kNames[which], line, which == red ? kLeastOfRed : kLeastOfContour);
   }
 }
 
