@@ -1,6 +1,7 @@
 #pragma once
 #include <signal.h>
 #include <stdio.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,6 +43,7 @@ class Weston {
  private:
   [[noreturn]] static void run(const std::string& log, const std::string& shell) {
     setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // A test that crashes leaves none behind.
     unsetenv("WAYLAND_DISPLAY");  // This one is nobody's guest.
     unsetenv("DISPLAY");
     if (freopen(log.c_str(), "w", stdout) == nullptr || dup2(1, 2) < 0) _exit(127);
