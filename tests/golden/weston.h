@@ -44,7 +44,7 @@ class Weston {
   [[noreturn]] static void run(const std::string& log, const std::string& shell) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // A test that crashes leaves none behind.
-    unsetenv("WAYLAND_DISPLAY");  // This one is nobody's guest.
+    unsetenv("WAYLAND_DISPLAY");       // This one is nobody's guest.
     unsetenv("DISPLAY");
     if (freopen(log.c_str(), "w", stdout) == nullptr || dup2(1, 2) < 0) _exit(127);
     execl(CARYATID_WESTON, "weston", "--backend=headless-backend.so", "--use-pixman",
