@@ -33,9 +33,13 @@ float atan_unit(float x) {
                  x);
 }
 
+// Beyond this a float no longer says where in the turn it is; NaN neither.
+constexpr float kMostAngle_rad = 1e6f;
+
 }  // namespace
 
 SinCos sin_cos(float angle_rad) {
+  if (!(angle_rad >= -kMostAngle_rad && angle_rad <= kMostAngle_rad)) return {};
   // Cody-Waite: pi/2 in three parts, so that the reduction keeps its bits.
   const float turns = angle_rad * 0.636619772f;
   const auto quadrant = static_cast<std::int32_t>(turns + (turns >= 0.0f ? 0.5f : -0.5f));
@@ -76,7 +80,7 @@ float asin_of(float x) {
 }
 
 float exp_of(float x) {
-  const float clamped = x < -80.0f ? -80.0f : (x > 80.0f ? 80.0f : x);
+  const float clamped = !(x > -80.0f) ? -80.0f : (x > 80.0f ? 80.0f : x);  // NaN: -80.
   const float scaled = clamped * 1.44269504089f;
   const auto power = static_cast<std::int32_t>(scaled + (scaled >= 0.0f ? 0.5f : -0.5f));
   const auto p = static_cast<float>(power);

@@ -61,6 +61,12 @@ bool bind_section(const Section& s, std::span<std::byte> image, View* view) {
   return true;  // A section of a later bake that this build does not need.
 }
 
+// What may still arrive after the base part has been checked.
+bool is_refinement(SectionId id) {
+  return id == SectionId::versions || id == SectionId::fat_first || id == SectionId::fat_moves ||
+         id == SectionId::splits || id == SectionId::split_data || id == SectionId::texels;
+}
+
 }  // namespace
 
 Result<PackHeader> read_header(std::span<const std::byte> bytes) {
@@ -143,6 +149,12 @@ Status Loader::accept_tables() {
       return refuse(Refusal::table_ranges);
     if (!bind_section(s, image_, &view_)) return refuse(Refusal::table_ranges);
   }
+  for (const Section& a : sections)
+    for (const Section& b : sections)
+      if (&a < &b &&
+          (a.id == b.id || (a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes)))
+        return refuse(
+            Refusal::table_ranges);  // What was checked in one could be changed in the other.
   for (const Chunk& c : chunks) {
     if (c.section >= header_.section_count || c.bytes == 0) return refuse(Refusal::table_ranges);
     const Section& s = sections_[c.section];
@@ -186,6 +198,7 @@ Status Loader::accept_base() {
 Status Loader::count_refinement(const Chunk& chunk) {
   const Section& section = sections_[chunk.section];
   const auto id = static_cast<SectionId>(section.id);
+  if (!is_refinement(id)) return refuse(Refusal::bad_split_order);
   if (const Status s = validate_elements(view_, id, chunk.section_offset / section.stride,
                                          (chunk.bytes + section.stride - 1) / section.stride);
       !s.ok())

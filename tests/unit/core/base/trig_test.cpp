@@ -29,6 +29,14 @@ TEST(Trig, AcosClampsItsArgument) {
   for (float x = -1.0f; x <= 1.0f; x += 0.001f) EXPECT_NEAR(acos_of(x), std::acos(x), 2e-6);
 }
 
+TEST(Trig, HostileNumbersStayFinite) {
+  for (const float x : {1e30f, -1e30f, HUGE_VALF, -HUGE_VALF, std::nanf("")}) {
+    EXPECT_EQ(sin_of(x), 0.0f);
+    EXPECT_EQ(cos_of(x), 1.0f);
+    EXPECT_TRUE(std::isfinite(exp_of(x)));
+  }
+}
+
 TEST(Trig, ExpIsRelativelyExact) {
   for (double x = -20; x < 20; x += 0.013)
     EXPECT_NEAR(

@@ -141,6 +141,19 @@ TEST(Loader, HostileContentHasItsOwnRefusal) {
       Refusal::bad_number);
 }
 
+// Found by the fuzzer: what was checked must not change afterwards.
+TEST(Loader, OverlappingSectionsAreRefused) {
+  auto file = TinyPack().file();
+  auto* header = reinterpret_cast<PackHeader*>(file.data());
+  auto* sections = reinterpret_cast<Section*>(file.data() + sizeof(PackHeader));
+  sections[5].offset = sections[6].offset;
+  const std::size_t tables =
+      header->section_count * sizeof(Section) + header->chunk_count * sizeof(Chunk);
+  header->tables_crc = crc32c(std::span(file).subspan(sizeof(PackHeader), tables));
+  header->header_crc = crc32c(std::span(file).first(60));
+  EXPECT_EQ(refusal(load(file)), Refusal::table_ranges);
+}
+
 TEST(Loader, EverySectionIsNeeded) {
   for (const SectionId id : {SectionId::character, SectionId::joints, SectionId::materials,
                              SectionId::objects, SectionId::fat_first, SectionId::rest_face}) {
