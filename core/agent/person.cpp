@@ -224,7 +224,8 @@ Vec3 Person::feature_point_m(int group, int index) const {
   Vec3 sum{0};
   for (std::size_t k = 0; k < 4; ++k)
     sum += static_cast<float>(fixed.weight[k]) / 255.0f *
-           joints_[object.bone[fixed.bone[k]]].point(m.dynamic()[p->vertex].position_m);
+           joints_[object.bone[std::min<std::size_t>(fixed.bone[k], kMaxBonesPerDraw - 1)]].point(
+               m.dynamic()[p->vertex].position_m);
   return sum;
 }
 

@@ -34,8 +34,11 @@ bool has_moves(const ObjectFat& fat, std::uint32_t version) {
 Displacement displacement_of(const ObjectFat& fat, std::span<const float> channel_weight,
                              std::uint32_t version) {
   Vec3 d{0}, n{0};
-  for (std::uint32_t i = fat.first[version]; i < fat.first[version + 1]; ++i) {
+  // The bounds hold for a loaded pack; while a refinement arrives, its bytes are not yet checked.
+  const auto end = std::min<std::size_t>(fat.first[version + 1], fat.moves.size());
+  for (std::size_t i = fat.first[version]; i < end; ++i) {
     const pack::Move& move = fat.moves[i];
+    if (move.channel >= channel_weight.size()) continue;
     const float w = channel_weight[move.channel];
     if (w == 0.0f) continue;
     d += w * Vec3(move.d[0], move.d[1], move.d[2]);

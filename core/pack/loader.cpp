@@ -135,7 +135,13 @@ Status Loader::feed(std::span<const std::byte> bytes) {
 
 Status Loader::end() {
   if (state_ == State::refused) return refusal_;
-  return state_ == State::complete ? Status{} : refuse(Refusal::too_short);
+  if (state_ == State::complete) return {};
+  if (state_ == State::chunks && chunk_filled_bytes_ > 0) {  // Nobody checked what came of it.
+    const std::span<std::byte> half =
+        chunk_target(chunks_[chunk_index_]).first(chunk_filled_bytes_);
+    std::memset(half.data(), 0, half.size());
+  }
+  return refuse(Refusal::too_short);
 }
 
 Status Loader::accept_tables() {
