@@ -309,13 +309,7 @@ void Kiosk::poll_buttons(const Tick& tick) {
 
 // Where the person stands and whether she walks; streams bring a body of their own.
 void Kiosk::set_stage() {
-  const auto* left = pack::find_feature_point(person_.view(), 3, 5);
-  const auto* right = pack::find_feature_point(person_.view(), 3, 6);
-  subject_.stature_m = person_.view().character->stature_m;
-  if (left != nullptr && right != nullptr)
-    subject_.eyes_m = {0.5f * (left->position_m[0] + right->position_m[0]),
-                       0.5f * (left->position_m[1] + right->position_m[1]),
-                       0.5f * (left->position_m[2] + right->position_m[2])};
+  subject_ = scene::subject_of(person_.view());
   if (!has_legs(person_.view()) || player_.active()) return;
   const scene::Framing body = scene::framing(scene::View::body, subject_);
   const bool sideways = options_.rotate_degrees % 180 != 0;

@@ -9,6 +9,7 @@
 #include "assets/bake/gait/figure.h"
 #include "assets/bake/gait/measure.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/text_file.h"
 #include "core/body/walker.h"
 #include "core/stream/bap_text.h"
 
@@ -25,20 +26,6 @@ struct AnalyseArgs {
   std::string in, report, plot;
   bool plain_axes = false;
 };
-
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error(path + ":1: cannot be read; check the name");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  if (!out) throw std::runtime_error(path + ":1: cannot be written; check folder and space");
-}
 
 body::GaitStyle style_named(const std::string& name) {
   for (int m = 0; m < body::kGaitMoodCount; ++m)

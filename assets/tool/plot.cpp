@@ -6,6 +6,7 @@
 
 #include "assets/bake/plot/metrics_plot.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/text_file.h"
 
 namespace caryatid::tool {
 namespace {
@@ -15,19 +16,8 @@ struct PlotArgs {
   std::string out, title;
 };
 
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error(path + ":1: cannot be read; check the name");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 void write_chart(const bake::Chart& chart, const std::string& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << bake::chart_svg(chart);
-  if (!out.flush())
-    throw std::runtime_error(path + ":1: cannot be written; check folder and space");
+  write_text(path, bake::chart_svg(chart));
 }
 
 void plot_metrics(const PlotArgs& args) {

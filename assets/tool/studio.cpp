@@ -83,13 +83,7 @@ Picture Studio::picture(const Pose& pose) {
     mix.emotion = &pose.faps;
   }
   person_->show(mix.run(), pose.baps, Affine{}, 0.0f);
-  scene::Subject subject;
-  subject.stature_m = person_->view().character->stature_m;
-  const auto* left = pack::find_feature_point(person_->view(), 3, 5);
-  const auto* right = pack::find_feature_point(person_->view(), 3, 6);
-  if (left != nullptr && right != nullptr)
-    for (int k = 0; k < 3; ++k)
-      subject.eyes_m[k] = 0.5f * (left->position_m[k] + right->position_m[k]);
+  const scene::Subject subject = scene::subject_of(person_->view());
   scene::ComposeJob job;
   job.pack = &person_->view();
   job.meshes = person_->meshes();

@@ -32,6 +32,17 @@ Mat4 look_at(Vec3 eye, Vec3 target) {
 
 }  // namespace
 
+Subject subject_of(const pack::View& pack) {
+  Subject subject;
+  subject.stature_m = pack.character->stature_m;
+  const auto* left = pack::find_feature_point(pack, 3, 5);
+  const auto* right = pack::find_feature_point(pack, 3, 6);
+  if (left != nullptr && right != nullptr)
+    for (int k = 0; k < 3; ++k)
+      subject.eyes_m[k] = 0.5f * (left->position_m[k] + right->position_m[k]);
+  return subject;
+}
+
 Framing framing(View view, const Subject& subject) {
   Framing f;
   // A face stands a little above the middle of a portrait.

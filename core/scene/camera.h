@@ -1,5 +1,6 @@
 #pragma once
 // Cameras that frame the person: portrait lenses, so that a face is not distorted.
+#include "core/pack/view.h"
 #include "core/scene/draw_list.h"
 
 namespace caryatid::scene {
@@ -11,6 +12,9 @@ struct Subject {
   Vec3 eyes_m{0, 1.6f, 0.1f};  // Midway between the eyes.
   float stature_m = 1.7f;
 };
+
+// Of a character at rest, from its feature points 3.5 and 3.6; defaults where the pack lacks them.
+Subject subject_of(const pack::View& pack);
 
 // A pose of the camera that can be blended with another: linear in all of its terms.
 struct Framing {
