@@ -17,6 +17,14 @@ inline constexpr std::size_t kMaxDrawItems = 64;
 static_assert(kMaxDrawItems >= 2 * kMaxObjects);  // Hair is drawn in two passes at most.
 // Buttons of the largest panel that we know of (12), and four for a remote control.
 inline constexpr std::size_t kMaxButtons = 16;
+// One utterance: the text of a full page of captions. Twelve sounds a second and two seconds of
+// look-ahead and memory would do with 48 phones; one voice's numbers read out give bursts.
+inline constexpr std::size_t kMaxSpeechBytes = 8192;
+inline constexpr std::size_t kMaxPhones = 512;
+inline constexpr std::size_t kMaxWords = 1536;  // Five bytes a word, blank included.
+inline constexpr std::size_t kMaxMarks = 64;
+inline constexpr std::size_t kMaxSentences = 64;  // Those that have not been heard yet.
+static_assert(kMaxWords * 5 <= kMaxSpeechBytes);
 // 16-bit indices: VC4 truncates longer ones.
 inline constexpr std::size_t kMaxVerticesPerObject = 65535;
 
