@@ -37,12 +37,18 @@ void spare_lips_and_eyes(const Head& head, Weights& weight) {
     }
 }
 
+// A head that lacks the point (a mask without ears) has nothing there to move.
 Weights patch(const Head& head, int group, int index, float radius_m) {
+  if (!head.point_vertex.contains({group, index})) return Weights(head.skin.size(), 0.0f);
   const std::uint32_t at = head.vertex_of(group, index);
   Weights weight = bump(head, at, radius_m);
   spare_lips_and_eyes(head, weight);
-  const float top = weight[at];
+  // On a coarse head the point may lie where lips fade out; it moves by the whole amount all the
+  // same.
+  constexpr float kLeast = 0.3f;
+  const float top = std::max(weight[at], kLeast);
   for (float& w : weight) w /= top;
+  weight[at] = 1.0f;
   return weight;
 }
 

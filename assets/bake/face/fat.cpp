@@ -39,21 +39,9 @@ void add_move(std::vector<Move>& moves, std::uint32_t vertex, Vec3 displacement,
   moves.push_back({vertex, displacement, normal});
 }
 
-// A vertex on a border keeps its place and its shading, or the seam would show.
-std::vector<bool> border_of(const Skin& skin) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
-  for (const auto& quad : skin.quads)
-    for (std::size_t i = 0; i < 4; ++i) ++uses[std::minmax(quad[i], quad[(i + 1) % 4])];
-  std::vector<bool> border(skin.size(), false);
-  for (const auto& [edge, count] : uses)
-    if (count == 1) border[edge.first] = border[edge.second] = true;
-  return border;
-}
-
 class Tables {
  public:
   Tables(Character& character, const Head& head) : character_(character), head_(head) {
-    border_ = border_of(head.skin);
     for (std::size_t o = 0; o < character.objects.size(); ++o) {
       Object& object = character.objects[o];
       object.moves.clear();
@@ -125,7 +113,7 @@ class Tables {
     for (std::uint32_t i = 0; i < mesh.position_m.size(); ++i) {
       const std::uint32_t base = mesh.base_vertex[i];
       const std::uint32_t v = base == kNone ? kNone : head_.skin.of_base[base];
-      if (v == kNone || border_[v]) continue;
+      if (v == kNone || head_.border[v]) continue;
       add_move(moves, i, after[v] - before[v], normal_after[v] - normal_before[v]);
     }
   }
@@ -142,7 +130,6 @@ class Tables {
 
   Character& character_;
   const Head& head_;
-  std::vector<bool> border_;
   std::map<std::size_t, Carriers> carriers_;
 };
 
@@ -187,7 +174,10 @@ void set_loops(const Head& head, Object* skin) {
 }  // namespace
 
 void build_fat(Character& character, const BaseHuman& base, const WorkingRanges& ranges) {
-  const Head head = make_head(character, base);
+  build_fat(character, make_head(character, base), ranges);
+}
+
+void build_fat(Character& character, const Head& head, const WorkingRanges& ranges) {
   const ReachOf reach = [&](int fap) { return reach_of(ranges, fap); };
   std::vector<Movement> movements;
   add_brows(head, reach, movements);

@@ -138,6 +138,16 @@ std::vector<float> mandible_of(const Skin& skin, const BaseHuman& base) {
   return share;
 }
 
+std::vector<bool> border_of(const Skin& skin) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const auto& t : skin.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++uses[std::minmax(t[i], t[(i + 1) % 3])];
+  std::vector<bool> border(skin.size(), false);
+  for (const auto& [edge, count] : uses)
+    if (count == 1) border[edge.first] = border[edge.second] = true;
+  return border;
+}
+
 void find_points(const Character& character, Head& head) {
   for (const FeaturePoint& point : character.feature_points) {
     const std::pair<int, int> key{point.group, point.index};
@@ -207,6 +217,7 @@ Head make_head(const Character& character, const BaseHuman& base) {
   head.skin = skin_of(character, base);
   head.normal = normals(head.skin, head.skin.position_m);
   head.mandible = mandible_of(head.skin, base);
+  head.border = border_of(head.skin);
   head.facts = character.facts;
   find_points(character, head);
   head.middle_x_m = head.place_of(2, 2).x;

@@ -43,7 +43,9 @@ struct Lips {
 struct Head {
   Skin skin;
   std::vector<Vec3> normal;     // By skin vertex.
-  std::vector<float> mandible;  // By skin vertex: share of the jaw in the base's rig, 0..1.
+  std::vector<float> mandible;  // By skin vertex: share of the jaw's motion, 0..1.
+  // By skin vertex: borders on another object, where a change of place or shading would show.
+  std::vector<bool> border;
   pack::Character facts{};
   face::TransformGeometry transforms;
   std::array<Eye, kSides> eye;

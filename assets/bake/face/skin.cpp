@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <queue>
 
 namespace caryatid::bake::fat {
@@ -56,6 +57,25 @@ Skin make_skin(std::span<const Vec3> position_m,
     skin.triangles.push_back({quad[0], quad[1], quad[2]});
     skin.triangles.push_back({quad[0], quad[2], quad[3]});
   }
+  for (auto& list : skin.neighbours) std::sort(list.begin(), list.end());
+  return skin;
+}
+
+Skin make_triangle_skin(std::span<const Vec3> position_m,
+                        std::span<const std::array<std::uint32_t, 3>> triangles) {
+  Skin skin;
+  skin.position_m.assign(position_m.begin(), position_m.end());
+  skin.triangles.assign(triangles.begin(), triangles.end());
+  skin.base.resize(skin.size());
+  std::iota(skin.base.begin(), skin.base.end(), 0u);
+  skin.of_base = skin.base;
+  skin.quads_at.resize(skin.size());
+  skin.neighbours.resize(skin.size());
+  for (const auto& t : skin.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      add_unique(skin.neighbours[t[i]], t[(i + 1) % 3]);
+      add_unique(skin.neighbours[t[(i + 1) % 3]], t[i]);
+    }
   for (auto& list : skin.neighbours) std::sort(list.begin(), list.end());
   return skin;
 }

@@ -28,6 +28,11 @@ struct Skin {
 Skin make_skin(std::span<const Vec3> position_m,
                std::span<const std::array<std::uint32_t, 4>> quads);
 
+// From triangles over all of `position_m`, for skins of other origin: no quads, so no rings.
+// Vertices keep their numbers, which `base` and `of_base` repeat.
+Skin make_triangle_skin(std::span<const Vec3> position_m,
+                        std::span<const std::array<std::uint32_t, 3>> triangles);
+
 // The vertices met when walking from `from` through its neighbour `toward` straight on: at vertices
 // of four edges into the opposite edge. Stops when the ring closes, at any other vertex, or after
 // `at_most` vertices. Starts with `from`.
