@@ -118,6 +118,7 @@ bool Kiosk::open_person() {
   if (!options_.pack.empty()) {
     if (pack_file_.open(options_.pack, &error) && load_base(&error)) return true;
     complain(error + " (the built-in face stands in)");
+    pack_refused_ = true;
   }
   if (pack_file_.open_builtin(&error) && load_base(&error)) return true;
   complain(error);
@@ -200,6 +201,11 @@ bool Kiosk::start() {
     }
     if (!notifier_.open().ok()) complain("NOTIFY_SOCKET is no socket; running unsupervised");
     (void)thermal_.open();  // A board without sensors counts as cool.
+    if (!options_.control.empty()) player_.reserve();
+    if (!service_.open(options_, &error)) {
+      complain(error);
+      return false;
+    }
   }
   agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
   set_stage();
@@ -247,6 +253,7 @@ bool Kiosk::run() {
     }
   }
   (void)notifier_.stopping();
+  service_.close();
   report_.frames = frame_number_;
   report_.allocations = allocations_since_seal();
   if (!frames_out_.finish()) complain(options_.frames_out + ": the contact sheet can't be written");
@@ -260,12 +267,18 @@ void Kiosk::watch(bool shown) {
   const std::int64_t now_us = platform::monotonic_us();
   if (shown && !told_ready_) told_ready_ = notifier_.ready().ok();
   (void)notifier_.beat(now_us, {.flipped = shown, .input_ran = true, .audio_moved = true});
+  if (service_.due(now_us)) {
+    KioskStatus s = status();
+    service_.fill(&s);
+    service_.publish(now_us, s);
+  }
   if (now_us < next_heat_us_) return;
   next_heat_us_ = now_us + 1'000'000;
-  (void)thermal_.read(&heat_);
+  heat_known_ = thermal_.read(&heat_).ok() || heat_known_;
 }
 
 bool Kiosk::frame(const Tick& tick) {
+  last_time_s_ = tick.time_s;
   load_more();
   poll_buttons(tick);
   act(tick);
@@ -299,6 +312,9 @@ void Kiosk::poll_buttons(const Tick& tick) {
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
   if (script_) (void)script_->poll(now_us, events_);
   panel_.poll(platform::monotonic_us(), events_);
+  service_.control().poll(this, [](void* self, std::span<const char> line, auto& reply) {
+    static_cast<Kiosk*>(self)->obey({line.data(), line.size()}, reply);
+  });
   if (!display_) return;
   platform::DisplayEvents from_display;
   if (!display_->poll(now_us, from_display).ok()) return;
@@ -341,6 +357,10 @@ void Kiosk::aim_camera() {
 
 void Kiosk::act(const Tick& tick) {
   const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
+  if (will.pressed) {
+    ++presses_;
+    ++service_.state().presses;
+  }
   if (stage_) stage_->step(tick.dt_s, will, list_.camera.position_m);
   aim_camera();
   const face::FapFrame felt = emotion::expression(will.emotions);

@@ -23,6 +23,7 @@
 #include "firmware-app/panel.h"
 #include "firmware-app/player.h"
 #include "firmware-app/png_writer.h"
+#include "firmware-app/service.h"
 #include "platform/buttons/buttons.h"
 #include "platform/display/display.h"
 #include "platform/render/render.h"
@@ -52,6 +53,8 @@ class Kiosk {
 
   // --check: configuration and pack alone. True when both are sound.
   static bool check(const Options& options);
+  // --list-hardware: devices and GPU to stdout. False when no GL context can be had.
+  static bool list_hardware(const Options& options);
   // Async-signal-safe.
   static void request_stop();
 
@@ -78,6 +81,10 @@ class Kiosk {
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
   void watch(bool shown);
+  void obey(std::string_view line, platform::ControlReply& reply);
+  bool press(std::string_view name, bool down);
+  void play(std::string_view file, platform::ControlReply& reply);
+  KioskStatus status() const;
   void print_memory();
   void fix_levels();
   lod::SceneNeeds needs(bool busy);
@@ -97,9 +104,11 @@ class Kiosk {
   std::unique_ptr<platform::Buttons> script_;
   Panel panel_;
   platform::Notifier notifier_;
+  Service service_;
   platform::Thermal thermal_;
   platform::ThermalReading heat_;
   std::int64_t next_heat_us_ = 0;
+  bool heat_known_ = false, pack_refused_ = false;
   bool told_ready_ = false;
   std::unique_ptr<lod::BudgetController> budget_;
   std::unique_ptr<lod::VirtualBoard> board_;
@@ -119,7 +128,8 @@ class Kiosk {
   std::array<bool, kMaxTextures> texture_whole_{};
   bool refinement_ended_ = false;
   bool close_requested_ = false;
-  std::uint64_t frame_number_ = 0;
+  std::uint64_t frame_number_ = 0, presses_ = 0;
+  double last_time_s_ = 0.0;
   std::int64_t last_frame_us_ = 0;
   RunReport report_;
 };

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
       break;
   }
   if (options.check) return Kiosk::check(options) ? 0 : 1;
+  if (options.list_hardware) return Kiosk::list_hardware(options) ? 0 : 1;
   std::signal(SIGTERM, on_signal);
   std::signal(SIGINT, on_signal);
   // Large: meshes, tables and buffers of fixed size stand inside it.

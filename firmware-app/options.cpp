@@ -32,6 +32,12 @@ usage: caryatid [OPTIONS]
   --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of it
   --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
   --metrics FILE         JSON lines, one a frame
+  --control PATH         listen at a Unix socket, one line a command: press NAME, release NAME,
+                         feel EMOTION [0..1], say TEXT, play FILE.fba, play, status, help
+  --status FILE          the kiosk's state as one line of JSON, every 5 s
+  --prometheus FILE      the same as Prometheus text, for node_exporter's textfile collector
+  --state DIR            a folder for what outlives a power cut (default: $STATE_DIRECTORY)
+  --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --seed N               another idle life (default 1)
   --check                look at config and pack, say what is wrong, and exit
   --help, --version
@@ -59,6 +65,11 @@ enum Id : int {
   kLod,
   kView,
   kSeed,
+  kControl,
+  kStatus,
+  kPrometheus,
+  kState,
+  kListHardware,
   kCheck,
   kHelpId,
   kVersion,
@@ -82,6 +93,11 @@ constexpr option kLong[] = {
     {"lod", required_argument, nullptr, kLod},
     {"view", required_argument, nullptr, kView},
     {"seed", required_argument, nullptr, kSeed},
+    {"control", required_argument, nullptr, kControl},
+    {"status", required_argument, nullptr, kStatus},
+    {"prometheus", required_argument, nullptr, kPrometheus},
+    {"state", required_argument, nullptr, kState},
+    {"list-hardware", no_argument, nullptr, kListHardware},
     {"check", no_argument, nullptr, kCheck},
     {"help", no_argument, nullptr, kHelpId},
     {"version", no_argument, nullptr, kVersion},
@@ -139,6 +155,26 @@ bool rotation(const char* text, Options* out) {
   return true;
 }
 
+// Options that are a path and nothing more.
+bool take_path(int id, const char* text, Options* o) {
+  switch (id) {
+    case kControl:
+      o->control = text;
+      return true;
+    case kStatus:
+      o->status = text;
+      return true;
+    case kPrometheus:
+      o->prometheus = text;
+      return true;
+    case kState:
+      o->state = text;
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool take(int id, const char* text, Options* o) {
   double value = 0.0;
   switch (id) {
@@ -189,8 +225,11 @@ bool take(int id, const char* text, Options* o) {
     case kCheck:
       o->check = true;
       return true;
+    case kListHardware:
+      o->list_hardware = true;
+      return true;
     default:
-      return false;
+      return take_path(id, text, o);
   }
 }
 
@@ -217,6 +256,8 @@ Parsed parse_options(int argc, char** argv, Options* out) {
     }
     if (!take(id, optarg, out)) return Parsed::wrong;
   }
+  const char* folder = std::getenv("STATE_DIRECTORY");  // systemd's StateDirectory=.
+  if (out->state.empty() && folder != nullptr && !out->virtual_clock) out->state = folder;
   if (optind < argc) {
     std::fprintf(stderr, "caryatid: %s: not an option; see caryatid --help\n", argv[optind]);
     return Parsed::wrong;

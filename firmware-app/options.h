@@ -22,8 +22,12 @@ struct Options {
   std::string play;
   std::string lod = "auto";
   std::string view = "auto";  // auto, head, bust, body.
+  std::string control;        // Empty: no control socket; so for the three files below.
+  std::string status, prometheus;
+  std::string state;  // A folder.
   std::uint64_t seed = 1;
   bool check = false;
+  bool list_hardware = false;
 };
 
 enum class Parsed { run, done, wrong };

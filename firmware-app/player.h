@@ -20,6 +20,12 @@ class Player {
   bool open(const std::string& path, std::string* out_error);
   bool active() const { return size_ > 0 || stream_.active(); }
 
+  // --control's play: an .fba in place of what plays now, from `time_s` on. Needs reserve() before
+  // memory is sealed, then allocates nothing. False: no stream there; what played goes on.
+  void reserve() { stream_.reserve(); }
+  bool play_stream(std::string_view path, double time_s) { return stream_.reopen(path, time_s); }
+  void stop_stream() { stream_.close(); }
+
   // Advances to `time_s` since the start; starts over after the last frame. No allocation.
   void seek(double time_s);
   // The frames to show; nullptr when the file has nothing (yet) of the kind.

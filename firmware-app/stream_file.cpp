@@ -6,6 +6,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
+
+#include "core/base/fixed.h"
 
 namespace caryatid::app {
 namespace {
@@ -18,9 +21,7 @@ constexpr std::size_t kNodes = 32768;
 
 }  // namespace
 
-StreamFile::~StreamFile() {
-  if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
-}
+StreamFile::~StreamFile() { close(); }
 
 bool StreamFile::open(const std::string& path, std::string* out_error) {
   name_ = path;
@@ -34,28 +35,58 @@ bool StreamFile::open(const std::string& path, std::string* out_error) {
   is_file_ = S_ISREG(status.st_mode);
   if (descriptor_ == STDIN_FILENO)
     ::fcntl(descriptor_, F_SETFL, ::fcntl(descriptor_, F_GETFL) | O_NONBLOCK);
+  reserve();
+  restart(0.0);
+  if (!is_file_) return true;
+  const bool shows = shows_something();
+  const Status fault = playback_->last_fault();
+  if (!shows)
+    *out_error =
+        name_ + ": " +
+        (fault.ok() ? "no plane in it; give an .fba stream" : stream::describe_fba_fault(fault));
+  restart(0.0);
+  return shows;
+}
+
+void StreamFile::reserve() {
   arrived_.resize(kBufferBytes);
   buffer_.resize(kBufferBytes);
   nodes_.resize(kNodes);
-  restart(0.0);
-  return !is_file_ || check(out_error);
+}
+
+bool StreamFile::reopen(std::string_view path, double time_s) {
+  FixedString<255> name(path);
+  struct stat status = {};
+  const int next =
+      name.size() == path.size() ? ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC) : -1;
+  if (next < 0) return false;
+  const int before = std::exchange(descriptor_, next);
+  const bool was_file = std::exchange(is_file_, true);
+  restart(time_s);
+  const bool good = ::fstat(next, &status) == 0 && S_ISREG(status.st_mode) && shows_something();
+  if (!good) {  // Back to what played; a pipe goes on at its next intra plane.
+    ::close(next);
+    descriptor_ = before;
+    is_file_ = was_file;
+  } else if (before > STDIN_FILENO) {
+    ::close(before);
+  }
+  if (active()) restart(time_s);
+  return good;
+}
+
+void StreamFile::close() {
+  if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
+  descriptor_ = -1;
 }
 
 // A file shows its first frame at once, or there is none in it.
-bool StreamFile::check(std::string* out_error) {
+bool StreamFile::shows_something() {
   for (int i = 0; i < 1024 && !playback_->ended(); ++i) {
     read_some();
     if (playback_->advance(0.0)) break;
   }
-  const bool shows = playback_->has_face() || playback_->has_body();
-  if (!shows) {
-    const Status fault = playback_->last_fault();
-    *out_error =
-        name_ + ": " +
-        (fault.ok() ? "no plane in it; give an .fba stream" : stream::describe_fba_fault(fault));
-  }
-  restart(0.0);
-  return shows;
+  return playback_->has_face() || playback_->has_body();
 }
 
 void StreamFile::restart(double time_s) {

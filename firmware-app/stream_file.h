@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/stream/playback.h"
@@ -22,6 +23,11 @@ class StreamFile {
   // hold at least one plane; what comes through a pipe is seen when it comes.
   bool open(const std::string& path, std::string* out_error);
   bool active() const { return descriptor_ >= 0; }
+  // Takes the memory for reopen() now.
+  void reserve();
+  // Plays another regular file from `time_s` on, without allocating. False: what played goes on.
+  bool reopen(std::string_view path, double time_s);
+  void close();
 
   // Reads what has come and shows what is due at `time_s` since the start. Never waits, allocates
   // nothing.
@@ -31,7 +37,7 @@ class StreamFile {
   const body::BapFrame* baps() const;
 
  private:
-  bool check(std::string* out_error);
+  bool shows_something();
   void restart(double time_s);
   void read_some();
 

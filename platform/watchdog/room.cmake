@@ -1,3 +1,8 @@
-# The board itself: supervision and temperature. No libraries beyond libc.
-add_library(caryatid_board STATIC platform/watchdog/notify.cpp platform/thermal/thermal.cpp)
-target_link_libraries(caryatid_board PUBLIC caryatid_base PRIVATE caryatid_board_flags)
+# The board itself: supervision, temperature, small files, the control socket, what is plugged in.
+# No libraries beyond libc.
+find_package(Threads REQUIRED)
+file(GLOB board_sources CONFIGURE_DEPENDS platform/watchdog/*.cpp platform/thermal/*.cpp
+  platform/files/*.cpp platform/control/*.cpp platform/inventory/*.cpp)
+add_library(caryatid_board STATIC ${board_sources})
+target_link_libraries(caryatid_board PUBLIC caryatid_base Threads::Threads
+  PRIVATE caryatid_board_flags)

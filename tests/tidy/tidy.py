@@ -38,7 +38,7 @@ CORE_STD = set(
     "array span concepts new cstddef cstdint limits type_traits utility optional algorithm cmath "
     "cstring atomic bit cassert compare string_view arm_neon.h".split())
 PLATFORM_ROOMS = set(
-    "display render buttons audio voice clock watchdog thermal files control".split())
+    "display render buttons audio voice clock watchdog thermal files control inventory".split())
 # What a folder may include beside itself.
 FOLDER_ARROWS = {
     "platform": {"core"},

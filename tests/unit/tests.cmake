@@ -31,7 +31,7 @@ add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/confi
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
 caryatid_unit(platform/render caryatid_render)
-foreach(room watchdog thermal)
+foreach(room watchdog thermal control files inventory)
   caryatid_unit(platform/${room} caryatid_board)
 endforeach()
 # The service's hardening must not decay: systemd rates its exposure from 0 (safe) to 10.
@@ -40,6 +40,11 @@ if(SYSTEMD_ANALYZE)
   add_test(NAME deploy_hardening COMMAND ${SYSTEMD_ANALYZE} security --offline=true --threshold=15
     --no-pager ${CMAKE_SOURCE_DIR}/firmware-app/deploy/caryatid.service)
 endif()
+file(GLOB service_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/firmware-app/service/*.cpp)
+add_executable(unit_firmware_service ${service_tests} ${CMAKE_SOURCE_DIR}/firmware-app/command.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/status.cpp ${CMAKE_SOURCE_DIR}/firmware-app/last_state.cpp)
+target_link_libraries(unit_firmware_service PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
+add_test(NAME unit_firmware_service COMMAND unit_firmware_service)
 add_executable(unit_firmware_stream_file
   ${CMAKE_CURRENT_LIST_DIR}/firmware-app/stream_file_test.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/stream_file.cpp)

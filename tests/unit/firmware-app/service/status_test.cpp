@@ -1,0 +1,74 @@
+#include "firmware-app/status.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace caryatid::app {
+namespace {
+
+KioskStatus busy() {
+  KioskStatus s;
+  s.uptime_s = 12.5;
+  s.starts = 3;
+  s.frames = 375;
+  s.presses = 7;
+  s.emotion = emotion::Emotion::joy;
+  s.has_temperature = true;
+  s.temperature_celsius = 61.2;
+  s.under_voltage = true;
+  return s;
+}
+
+TEST(Status, JsonReadsBackAndHasNoNewline) {
+  char text[2048];
+  const std::string_view line = format_json(busy(), text);
+  EXPECT_EQ(line.find('\n'), std::string_view::npos);
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_EQ(json["frames"], 375);
+  EXPECT_EQ(json["emotion"], "joy");
+  EXPECT_EQ(json["under_voltage"], true);
+  EXPECT_NEAR(json["temperature_celsius"].get<double>(), 61.2, 1e-9);
+}
+
+TEST(Status, WithoutASensorThereIsNoTemperature) {
+  char text[2048];
+  EXPECT_TRUE(nlohmann::json::parse(format_json({}, text))["temperature_celsius"].is_null());
+  EXPECT_EQ(format_prometheus({}, text).find("temperature"), std::string_view::npos);
+}
+
+// Text format 0.0.4: "# TYPE name kind" and then "name value", each name once.
+TEST(Status, PrometheusTextHasATypeAndAValueForEachName) {
+  char text[2048];
+  std::istringstream lines{std::string(format_prometheus(busy(), text))};
+  int metrics = 0;
+  for (std::string hash, type, name, kind, again; lines >> hash >> type >> name >> kind;
+       ++metrics) {
+    double value = -1.0;
+    ASSERT_TRUE(lines >> again >> value);
+    EXPECT_EQ(hash + type, "#TYPE");
+    EXPECT_EQ(name, again);
+    EXPECT_EQ(name.ends_with("_total"), kind == "counter") << name;
+    EXPECT_GE(value, 0.0);
+  }
+  EXPECT_GE(metrics, 14);
+}
+
+TEST(Status, NothingIsWrittenInPieces) {
+  char text[2048];
+  const std::size_t json = format_json(busy(), text).size();
+  for (std::size_t n : {std::size_t{1}, std::size_t{50}, json})
+    EXPECT_TRUE(format_json(busy(), std::span(text, n)).empty()) << n;
+  EXPECT_EQ(format_json(busy(), std::span(text, json + 1)).size(), json);
+}
+
+TEST(Status, ResidentMemoryIsThatOfThisProcess) {
+  const ResidentMemory memory;
+  EXPECT_GT(memory.bytes(), 1u << 20);
+  EXPECT_LT(memory.bytes(), 1ull << 32);
+}
+
+}  // namespace
+}  // namespace caryatid::app
