@@ -8,9 +8,9 @@
 #include "assets/bake/gait/analyse.h"
 #include "assets/bake/gait/figure.h"
 #include "assets/bake/gait/measure.h"
+#include "assets/bake/gait/settled_walk.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/text_file.h"
-#include "core/body/walker.h"
 #include "core/stream/bap_text.h"
 
 namespace caryatid::tool {
@@ -39,27 +39,14 @@ body::GaitStyle style_named(const std::string& name) {
                            "ACTIVATION,EVALUATION from -1 to 1");
 }
 
-// Steady walking along +Z from a heel strike of the right foot.
+// Steady walking along +Z from a heel strike of the right foot, at the origin.
 std::vector<body::BapFrame> walk(const body::GaitStyle& style, bool linear, int count, float fps) {
   const body::Skeleton skeleton = body::upright_skeleton();
-  body::Walker walker(&skeleton);
-  walker.set_style(style);
-  if (linear) walker.set_interpolation(body::GaitInterpolation::linear);
-  walker.walk_to({0, 1e4f});
-  body::BapFrame frame;
-  for (int i = 0; i < 300; ++i) walker.step(1.0f / 30.0f, frame);
-  for (float before = 0.0f, now = walker.left_phase(); !(before < 0.5f && now >= 0.5f);) {
-    walker.step(1.0f / 960.0f, frame);
-    before = now;
-    now = walker.left_phase();
-  }
-  std::vector<body::BapFrame> frames;
-  const float start_mm = frame.get(183);
-  for (int i = 0; i < count; ++i) {
-    frames.push_back(frame);
-    frames.back().set(183, frame.get(183) - start_mm);
-    walker.step(1.0f / fps, frame);
-  }
+  bake::SettledWalk settled(
+      skeleton, style, linear ? body::GaitInterpolation::linear : body::GaitInterpolation::smooth);
+  auto frames = settled.record(count, fps);
+  const float start_mm = frames.front().get(183);
+  for (body::BapFrame& frame : frames) frame.set(183, frame.get(183) - start_mm);
   return frames;
 }
 

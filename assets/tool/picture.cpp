@@ -72,6 +72,13 @@ void paste(const Picture& from, std::uint32_t x, std::uint32_t y, Picture* to) {
                 &to->rgb[(std::size_t{y + row} * to->width + x) * 3]);
 }
 
+void fill_box(const Box& box, std::uint8_t grey, Picture* to) {
+  if (box.x >= to->width) return;
+  const std::size_t w = std::min(box.width, to->width - box.x);
+  for (std::uint32_t y = box.y; y < box.y + box.height && y < to->height; ++y)
+    std::fill_n(&to->rgb[(std::size_t{y} * to->width + box.x) * 3], 3 * w, grey);
+}
+
 void draw_text(std::string_view text, int x, int y, float pixel_height, Picture* to) {
   static const Font font;
   const float scale = stbtt_ScaleForPixelHeight(&font.info, pixel_height);

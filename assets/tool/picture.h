@@ -25,6 +25,12 @@ Picture halved(const Picture& picture);
 // Copies `from` into `to` with its top left corner at (x, y); what lies outside is cut.
 void paste(const Picture& from, std::uint32_t x, std::uint32_t y, Picture* to);
 
+struct Box {
+  std::uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+// Fills the box with one grey; what lies outside is cut.
+void fill_box(const Box& box, std::uint8_t grey, Picture* to);
+
 // Text in DejaVu Sans (Debian's fonts-dejavu-core), white, baseline at y. Throws when there is no
 // font.
 void draw_text(std::string_view text, int x, int y, float pixel_height, Picture* to);

@@ -20,7 +20,8 @@ namespace caryatid::tool {
 namespace {
 
 struct SheetArgs {
-  std::string pack, mesh, what, out, mood, lod;
+  std::string pack, mesh, what, out, lod;
+  std::vector<std::string> moods;
   std::uint32_t cell = 400;
   long shuffle = -1;
 };
@@ -149,6 +150,12 @@ void shuffle(unsigned seed, Cells* cells) {
   *cells = out;
 }
 
+body::GaitStyle style_named(const std::string& mood) {
+  for (int m = 0; m < body::kGaitMoodCount; ++m)
+    if (mood == body::gait_mood_name(body::GaitMood(m))) return body::gait_style(body::GaitMood(m));
+  return body::running_style();
+}
+
 void sheet(const SheetArgs& a) {
   if (!a.mesh.empty()) {
     const Cells levels = mesh_lods(a.mesh, a.cell);
@@ -162,15 +169,16 @@ void sheet(const SheetArgs& a) {
   if (a.what == "visemes") cells = visemes(&studio), columns = 5;
   if (a.what == "faps") cells = faps(&studio), columns = 10;
   if (a.what == "gait") {
-    // A named mood gives the strip of its cycle; none, the key poses of all.
-    GaitCells gait;
-    for (int m = 0; m < body::kGaitMoodCount; ++m)
-      if (a.mood == body::gait_mood_name(body::GaitMood(m)))
-        gait = gait_strip(&studio, body::gait_style(body::GaitMood(m)));
-    if (a.mood == "run") gait = gait_strip(&studio, body::running_style());
-    if (a.mood.empty()) gait = gait_poses(&studio);
-    cells = {gait.pictures, gait.captions};
-    columns = a.mood.empty() ? 4 : 8;
+    // Named moods give the strips of their cycles; none, the key poses of all.
+    for (const std::string& mood : a.moods) {
+      cells.pictures.push_back(gait_strip(&studio, style_named(mood)));
+      cells.captions.push_back(mood);
+      columns = 1;
+    }
+    if (a.moods.empty()) {
+      GaitCells gait = gait_poses(&studio);
+      cells = {std::move(gait.pictures), std::move(gait.captions)};
+    }
   }
   if (a.what == "lods") cells = lods(&studio, a.cell);
   if (a.shuffle >= 0) shuffle(static_cast<unsigned>(a.shuffle), &cells);
@@ -191,8 +199,9 @@ void add_sheet(CLI::App& app) {
   cmd->add_option("--lod", a->lod, "emotions: triangles, N or head=N (default all)");
   cmd->add_option("--cell", a->cell, "Pixels of a picture (default 400)")
       ->check(CLI::Range(64, 1024));
-  cmd->add_option("--mood", a->mood,
-                  "gait: the strip of this mood (or run) in place of the key poses of all")
+  cmd->add_option("--mood", a->moods,
+                  "gait: strips of these moods (or run), by commas, in place of all key poses")
+      ->delimiter(',')
       ->check(CLI::IsMember(
           {"normal", "bored", "happy", "sad", "angry", "hurried", "tired", "proud", "run"}));
   cmd->add_option("--shuffle", a->shuffle,

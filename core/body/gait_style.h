@@ -22,8 +22,10 @@ struct GaitStyle {
   GaitKeys swing_thigh_deg{}, swing_knee_deg{}, swing_ankle_deg{};
   float cycle_s = 1.0f;  // Of two steps.
   float trunk_pitch_deg = 0.0f;
-  float head_pitch_deg = 0.0f;                            // Against the vertical, not the trunk.
-  float arm_forward_deg = 0.0f, arm_back_deg = 0.0f;      // Shoulder flexion at the extended pose.
+  float head_pitch_deg = 0.0f;    // Against the vertical, not the trunk.
+  float head_forward_deg = 0.0f;  // Lower neck forward, upper back: the head thrust out.
+  // Upper arm against the vertical at the extended pose.
+  float arm_forward_deg = 0.0f, arm_back_deg = 0.0f;
   float elbow_forward_deg = 0.0f, elbow_back_deg = 0.0f;  // Elbow flexion at the same moments.
   float shoulder_turn_deg = 0.0f;                         // Shoulders against the pelvis.
   float head_roll_deg = 0.0f;                             // Swings once in a cycle.

@@ -33,7 +33,9 @@ void pose_arm(const Skeleton& s, const GaitStyle& style, bool left, float forwar
   const float side = left ? 1.0f : -1.0f;
   const float share = 0.5f + 0.5f * forwardness;  // 0 hand at the back, 1 in front.
   const auto between = [&](float back, float front) { return back + (front - back) * share; };
-  const float upper = between(style.arm_back_deg, style.arm_forward_deg) * kDegree;
+  // Arms hang from a bowed trunk, they do not lean with it.
+  const float trunk = style.trunk_pitch_deg + style.chest_pitch_deg;
+  const float upper = (between(style.arm_back_deg, style.arm_forward_deg) + trunk) * kDegree;
   const float elbow = between(style.elbow_back_deg, style.elbow_forward_deg) * kDegree;
   const float out_rad = style.arm_out_deg * kDegree;
   // The wrist that these angles mean, as the target: direction and distance from the shoulder.
@@ -52,6 +54,17 @@ void pose_arm(const Skeleton& s, const GaitStyle& style, bool left, float forwar
   set_turn(out, limb.hinge, Axis::x, pose.hinge_rad);
   set_turn(out, limb.hinge, Axis::y, side * 0.15f);
   curl_hand(out, left, style.finger_curl_deg * kDegree, 0.5f * style.finger_curl_deg * kDegree);
+}
+
+void thrust_head(BapFrame& out, float rad) {
+  constexpr int kJoints = 3;  // vc7..vc5 one way, vc2..skullbase the other.
+  for (int i = 0; i < kJoints; ++i)
+    for (const bool low : {true, false}) {
+      const HanimJoint first = low ? HanimJoint::vc7 : HanimJoint::vc2;
+      const auto joint = static_cast<HanimJoint>(index_of(first) + static_cast<std::size_t>(i));
+      const float turn = rad / static_cast<float>(kJoints);
+      set_turn(out, joint, Axis::x, get_turn(out, joint, Axis::x) + (low ? turn : -turn));
+    }
 }
 
 }  // namespace
@@ -90,6 +103,7 @@ void pose_upper_body(const Skeleton& s, const GaitStyle& style, float left_phase
   turn_spine(out, SpinePart::lower_thoracic, Axis::x, 0.35f * pitch + 0.5f * chest);
   turn_spine(out, SpinePart::upper_thoracic, Axis::x, 0.20f * pitch + 0.5f * chest);
   turn_spine(out, SpinePart::neck, Axis::x, style.head_pitch_deg * kDegree - pitch - chest);
+  thrust_head(out, style.head_forward_deg * kDegree);
   // Left pelvis forward is a turn about -Y; the shoulders go the other way, the head stays.
   const float turn = style.shoulder_turn_deg * kDegree * stride;
   turn_spine(out, SpinePart::lumbar, Axis::y, 0.3f * turn);

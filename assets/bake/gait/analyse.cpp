@@ -8,6 +8,7 @@
 
 #include "assets/bake/gait/measure.h"
 #include "assets/bake/gait/normative.h"
+#include "assets/bake/gait/settled_walk.h"
 #include "core/body/walker.h"
 
 namespace caryatid::bake {
@@ -231,8 +232,13 @@ body::GaitStyle style_of(const Motion& m, const Signals& s, const GaitAnalysis& 
 
 // What tells moods apart in a capture, each in units of its usual spread between moods.
 std::vector<float> features(const body::GaitStyle& g, const Motion& m) {
+  // Knees against their straightest: captures differ in where a joint centre sits.
+  float straight = g.stance_knee_deg[0];
+  for (const auto* keys : {&g.stance_knee_deg, &g.swing_knee_deg})
+    for (const float knee : *keys) straight = std::min(straight, knee);
   std::vector<float> f = {g.cycle_s / 0.2f, (g.stance_thigh_deg[0] - g.swing_thigh_deg[0]) / 8.0f,
-                          g.swing_knee_deg[1] / 8.0f, g.stance_knee_deg[2] / 4.0f};
+                          (g.swing_knee_deg[2] - straight) / 8.0f,
+                          (g.stance_knee_deg[2] - straight) / 6.0f};
   if (m.has_trunk) f.push_back(g.trunk_pitch_deg / 6.0f);
   if (m.has_arms) {
     f.push_back((g.arm_forward_deg - g.arm_back_deg) / 18.0f);
@@ -241,9 +247,8 @@ std::vector<float> features(const body::GaitStyle& g, const Motion& m) {
   return f;
 }
 
-}  // namespace
-
-GaitAnalysis analyse_gait(const Motion& m) {
+// All but the mood and the resynthesis.
+GaitAnalysis measured_gait(const Motion& m) {
   GaitAnalysis a;
   if (m.frames.size() < 8) throw std::runtime_error("fewer than 8 frames; no stride fits");
   const Signals s = signals_of(m);
@@ -280,9 +285,31 @@ GaitAnalysis analyse_gait(const Motion& m) {
   a.cadence_spm = 120.0f * static_cast<float>(a.strides.size()) / seconds;
   a.measured = mean_curves(s, a.strides);
   a.style = style_of(m, s, a);
+  return a;
+}
+
+// The moods as they look when measured like a capture: on walks of our generic body.
+const std::vector<body::GaitStyle>& mood_references() {
+  static const std::vector<body::GaitStyle> references = [] {
+    constexpr float kFps = 60.0f;
+    const body::Skeleton s = body::upright_skeleton();
+    std::vector<body::GaitStyle> found;
+    for (int g = 0; g < body::kGaitMoodCount; ++g) {
+      SettledWalk walk(s, body::gait_style(body::GaitMood(g)));
+      found.push_back(measured_gait(motion_of(s, walk.record(300, kFps), kFps)).style);
+    }
+    return found;
+  }();
+  return references;
+}
+
+}  // namespace
+
+GaitAnalysis analyse_gait(const Motion& m) {
+  GaitAnalysis a = measured_gait(m);
   const std::vector<float> own = features(a.style, m);
   for (std::size_t g = 0; g < a.mood_distance.size(); ++g) {
-    const std::vector<float> theirs = features(body::gait_style(body::GaitMood(g)), m);
+    const std::vector<float> theirs = features(mood_references()[g], m);
     float sum = 0.0f;
     for (std::size_t i = 0; i < own.size(); ++i) sum += (own[i] - theirs[i]) * (own[i] - theirs[i]);
     a.mood_distance[g] = std::sqrt(sum / static_cast<float>(own.size()));

@@ -26,6 +26,41 @@ Vec3 moved(const SolePoint& p, std::span<const Affine> pose) {
   return out;
 }
 
+constexpr float kLifted_m = 0.003f;
+using Heights = std::array<std::vector<float>, 2>;  // Lowest point of each foot, frame by frame.
+
+void find_steps(const Heights& low, WalkMeasures& m) {
+  for (const std::vector<float>& l : low)
+    for (std::size_t i = 1, begin = 0; i < l.size(); ++i) {
+      if (l[i] > kLifted_m && l[i - 1] <= kLifted_m) begin = i;
+      if (l[i] <= kLifted_m && l[i - 1] > kLifted_m && begin > 0) {
+        ++m.steps;
+        const std::size_t span = i - begin;
+        for (std::size_t k = begin + span * 3 / 10; k < begin + span * 7 / 10; ++k)
+          m.clearance_m = std::min(m.clearance_m, l[k]);
+      }
+    }
+}
+
+std::vector<std::size_t> landings_of(const Heights& low) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 1; i < low[0].size(); ++i)
+    for (const std::vector<float>& l : low)
+      if (l[i] <= kLifted_m && l[i - 1] > kLifted_m) frames.push_back(i);
+  return frames;
+}
+
+void count_maxima(const std::vector<float>& height, const std::vector<std::size_t>& landings,
+                  WalkMeasures& m) {
+  for (std::size_t step = 1; step < landings.size(); ++step) {
+    int maxima = 0;
+    for (std::size_t i = landings[step - 1]; i < landings[step]; ++i)
+      if (i > 0 && height[i] > height[i - 1] && height[i] >= height[i + 1]) ++maxima;
+    m.fewest_maxima = step == 1 ? maxima : std::min(m.fewest_maxima, maxima);
+    m.most_maxima = std::max(m.most_maxima, maxima);
+  }
+}
+
 }  // namespace
 
 std::vector<SolePoint> outline_points(const body::Skeleton& skeleton) {
@@ -78,18 +113,8 @@ WalkMeasures measure_walk(const body::Skeleton& skeleton, std::span<const body::
   }
   const auto [least, most] = std::minmax_element(pelvis.begin(), pelvis.end());
   m.pelvis_travel_m = *most - *least;
-  for (std::size_t i = 1; i + 1 < pelvis.size(); ++i)
-    if (pelvis[i] > pelvis[i - 1] && pelvis[i] >= pelvis[i + 1]) ++m.maxima;
-  for (const std::vector<float>& l : low)
-    for (std::size_t i = 1, begin = 0; i < l.size(); ++i) {
-      if (l[i] > 0.003f && l[i - 1] <= 0.003f) begin = i;
-      if (l[i] <= 0.003f && l[i - 1] > 0.003f && begin > 0) {
-        ++m.steps;
-        const std::size_t span = i - begin;
-        for (std::size_t k = begin + span * 3 / 10; k < begin + span * 7 / 10; ++k)
-          m.clearance_m = std::min(m.clearance_m, l[k]);
-      }
-    }
+  find_steps(low, m);
+  count_maxima(pelvis, landings_of(low), m);
   const float seconds = static_cast<float>(frames.size() - 1) / fps;
   m.speed_mps = std::hypot(root.x - first_root.x, root.z - first_root.z) / seconds;
   m.step_m = m.steps == 0 ? 0.0f : m.speed_mps * seconds / static_cast<float>(m.steps);

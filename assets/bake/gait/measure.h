@@ -27,8 +27,8 @@ struct WalkMeasures {
   float slide_m = 0.0f;        // Largest move over the floor of a standing point in one frame.
   float below_floor_m = 0.0f;  // Deepest point.
   float clearance_m = 1e9f;    // Least height of a foot's lowest point in the middle of its swing.
-  float pelvis_travel_m = 0.0f;  // Vertical, of the root joint.
-  int maxima = 0;                // Of that height; as many as steps in a sound walk.
+  float pelvis_travel_m = 0.0f;            // Vertical, of the root joint.
+  int fewest_maxima = 0, most_maxima = 0;  // Of that height, from one landing to the next.
   float speed_mps = 0.0f;
   float step_m = 0.0f;  // Distance between successive landings.
   int steps = 0;

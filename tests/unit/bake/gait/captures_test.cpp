@@ -26,6 +26,7 @@ TEST(Captures, PhasesOfARealWalk) {
   CARYATID_NEED_TEST_DATA(mocap, "mocap");
   const GaitAnalysis a = of(mocap / "cmu_02_01.bvh");
   EXPECT_FALSE(a.runs);
+  EXPECT_EQ(a.mood, body::GaitMood::normal);
   EXPECT_NEAR(a.speed_mps, 1.18f, 0.05f);
   ASSERT_EQ(a.strides.size(), 3u);
   for (const Stride& t : a.strides) {
