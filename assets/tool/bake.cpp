@@ -8,9 +8,11 @@
 
 #include "assets/bake/face/fat.h"
 #include "assets/bake/gait/soles.h"
+#include "assets/bake/head/foreign_head.h"
 #include "assets/bake/human/build.h"
 #include "assets/bake/human/preview.h"
 #include "assets/bake/light/occlusion.h"
+#include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/pack/small.h"
 #include "assets/bake/pack/writer.h"
 #include "assets/bake/texture/image.h"
@@ -20,7 +22,7 @@ namespace caryatid::tool {
 namespace {
 
 struct BakeArgs {
-  std::string recipe, out, base;
+  std::string recipe, out, base, points, ranges;
   bool licences = false, small = false;
 };
 
@@ -77,6 +79,24 @@ void print_report(const bake::PackReport& r) {
               static_cast<unsigned long long>(sum), r.file_bytes, r.base_part_bytes, r.arena_bytes);
 }
 
+void print_licences(const bake::Character& c) {
+  for (const bake::Licence& l : c.licences)
+    std::printf("%s: %s%s%s\n", l.source.c_str(), l.licence.c_str(), l.author.empty() ? "" : ", ",
+                l.author.c_str());
+}
+
+void write_pack(const bake::Character& character, const bake::PackOptions& options,
+                const std::string& path) {
+  bake::PackReport report;
+  const std::vector<std::byte> bytes = bake::write_pack(character, options, &report);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush())
+    throw std::runtime_error(path + ": can't be written; name a folder that exists");
+  print_report(report);
+}
+
 void bake_character(const BakeArgs& a) {
   Progress progress;
   progress.step("read the base human");
@@ -89,9 +109,7 @@ void bake_character(const BakeArgs& a) {
   bake::Character character = bake::build_character(recipe, base, places);
   bake::add_sole_points(character);
   print_facts(character);
-  if (a.licences)
-    for (const bake::Licence& l : character.licences)
-      std::printf("%s: %s, %s\n", l.source.c_str(), l.licence.c_str(), l.author.c_str());
+  if (a.licences) print_licences(character);
   progress.step("face animation tables");
   const auto ranges =
       bake::fat::read_working_ranges(recipe_file.parent_path() / "fap_working_ranges.csv");
@@ -99,20 +117,56 @@ void bake_character(const BakeArgs& a) {
   progress.step("occlusion");
   bake::bake_occlusion(character);
   progress.step("simplify and pack");
-  bake::PackReport report;
   bake::PackOptions options;
   if (a.small) {
     character = bake::small_character(character, 64);
     options.refine = false;
     options.base_fraction = {0.12, 0.35, 0.50, 0.22, 0.30, 0.05, 1.0, 1.0};
   }
-  const std::vector<std::byte> bytes = bake::write_pack(character, options, &report);
-  std::ofstream file(a.out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush())
-    throw std::runtime_error(a.out + ": can't be written; name a folder that exists");
-  print_report(report);
+  write_pack(character, options, a.out);
+  progress.step("done");
+}
+
+// The table of working ranges stands beside the characters, in the source tree that the tool was
+// built in or started from.
+std::filesystem::path default_ranges() {
+  const std::filesystem::path table = "assets/characters/fap_working_ranges.csv";
+  std::error_code error;
+  for (std::filesystem::path folder = std::filesystem::canonical("/proc/self/exe", error);
+       folder.has_relative_path(); folder = folder.parent_path())
+    if (std::filesystem::exists(folder / table)) return folder / table;
+  return table;
+}
+
+void bake_head(const BakeArgs& a) {
+  Progress progress;
+  progress.step("read the head");
+  const std::string text = bake::read_file(a.recipe);
+  const bake::Surface surface = bake::parse_mesh(text, bake::format_of(a.recipe), a.recipe);
+  const bake::foreign::PointList points =
+      bake::foreign::parse_points(bake::read_file(a.points), a.points);
+  const auto ranges = bake::fat::read_working_ranges(
+      a.ranges.empty() ? default_ranges() : std::filesystem::path(a.ranges));
+  progress.step("understand it, face animation tables");
+  const std::string name = std::filesystem::path(a.recipe).stem().string();
+  bake::foreign::ForeignHead head =
+      bake::foreign::build_foreign_head(surface, points, name, ranges);
+  print_facts(head.character);
+  for (const std::string& note : head.notes) std::printf("  %s\n", note.c_str());
+  head.character.licences = bake::foreign::licences_of(text, a.recipe);
+  if (a.licences) print_licences(head.character);
+  progress.step("occlusion");
+  bake::bake_occlusion(head.character);
+  progress.step("simplify and pack");
+  bake::PackOptions options;
+  // A coarse head has nothing to spare.
+  constexpr double kLeastTriangles = 700;
+  for (const bake::Object& o : head.character.objects)
+    if (o.role == pack::ObjectRole::head)
+      options.base_fraction[0] = std::min(
+          1.0,
+          std::max(options.base_fraction[0], kLeastTriangles / double(o.mesh.triangles.size())));
+  write_pack(head.character, options, a.out);
   progress.step("done");
 }
 
@@ -162,6 +216,19 @@ void draw_feature_points(const BakeArgs& a) {
   bake::write_png(sheet, a.out);
 }
 
+constexpr const char* kPointsHelp =
+    "A line of the list is one feature point of ISO/IEC 14496-2:\n"
+    "  3.1 1234             the vertex of the OBJ that it is, from 1 as OBJ counts\n"
+    "  3.1 0.03 1.6 0.09    or its place, in the OBJ's unit and axes; the nearest vertex is it\n"
+    "  count 0              vertices count from 0 in the lines that follow\n"
+    "  # comment\n"
+    "Needed: 2.1-2.5 3.1-3.4 3.7 3.8 3.11 3.12 4.1-4.6 8.1-8.4 9.1 9.2 9.3 9.15. More are "
+    "welcome:\n"
+    "2.6-2.9 8.5-8.8 (lips), 2.10, 5.1-5.4 (cheeks), 3.5 3.6 (pupils), 10.1-10.8 (ears), "
+    "11.1-11.3\n"
+    "(hair line). Unit and axes of the file are found from the points; pupils end up 63 mm apart.\n"
+    "example: caryatid-tool bake head head.obj --points head.points -o head.pack";
+
 }  // namespace
 
 void add_bake(CLI::App& app) {
@@ -179,6 +246,18 @@ void add_bake(CLI::App& app) {
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");
   character->callback([a] { bake_character(*a); });
+  auto h = std::make_shared<BakeArgs>();
+  CLI::App* head = cmd->add_subcommand(
+      "head", "A foreign head: a mesh with a list of feature points and nothing else");
+  head->add_option("mesh", h->recipe, "IN.obj (or .off, .ply)")->required();
+  head->add_option("--points", h->points, "The list of feature points")->required();
+  head->add_option("-o,--out", h->out, "PACK")->required();
+  head->add_option(
+      "--ranges", h->ranges,
+      "Working ranges of the FAPs (default: assets/characters/fap_working_ranges.csv)");
+  head->add_flag("--licences", h->licences, "Print the licence of every source");
+  head->footer(kPointsHelp);
+  head->callback([h] { bake_head(*h); });
   auto p = std::make_shared<BakeArgs>();
   CLI::App* points = cmd->add_subcommand("feature-points",
                                          "A picture of a recipe's face with all points numbered");

@@ -142,7 +142,11 @@ void set_loops(const Head& head, Object* skin) {
   const auto add = [&](const char* name, const std::vector<std::uint32_t>& line,
                        std::uint32_t least) {
     Object::Loop loop{name, {}, least};
-    for (const std::uint32_t v : line) loop.vertices.push_back(of_base.at(head.skin.base[v]));
+    for (const std::uint32_t v : line) {
+      // A coarse head's lips have fewer vertices than the grid has columns.
+      const std::uint32_t at = of_base.at(head.skin.base[v]);
+      if (loop.vertices.empty() || loop.vertices.back() != at) loop.vertices.push_back(at);
+    }
     skin->loops.push_back(std::move(loop));
   };
   skin->loops.clear();
