@@ -10,6 +10,8 @@
 #include "assets/bake/human/mesh_tools.h"
 #include "assets/bake/human/neutral.h"
 #include "assets/bake/human/skeleton.h"
+#include "assets/bake/texture/brow.h"
+#include "assets/bake/texture/eye.h"
 #include "assets/bake/texture/head_skin.h"
 #include "assets/bake/texture/image.h"
 #include "core/body/hanim.h"
@@ -71,13 +73,6 @@ std::vector<bool> on_jaw(const BaseHuman& base, const Proxy& proxy) {
   return out;
 }
 
-// 1 on the two irises of the package's eye textures, 0 on the whites: only irises take a tint.
-float iris_share(Vec2 uv) {
-  constexpr Vec2 kCenters[] = {{0.703f, 0.297f}, {0.290f, 0.706f}};
-  const float d = std::min(glm::distance(uv, kCenters[0]), glm::distance(uv, kCenters[1]));
-  return glm::smoothstep(0.135f, 0.115f, d);
-}
-
 class Builder {
  public:
   Builder(const Recipe& recipe, const BaseHuman& base, const std::vector<FeaturePointPlace>& places)
@@ -125,8 +120,10 @@ class Builder {
     for (Object& object : out_.objects) {
       if (object.role != pack::ObjectRole::head) continue;
       pack::Material material = out_.materials[object.material];
-      material.texture =
-          add_image(paint_head(out_, recipe_.skin, out_.images[material.texture], object.mesh));
+      std::vector<Vec3> border_m;
+      for (const std::uint32_t v : object.locked) border_m.push_back(object.mesh.position_m[v]);
+      material.texture = add_image(
+          paint_head(out_, recipe_.skin, out_.images[material.texture], border_m, object.mesh));
       out_.materials.push_back(material);
       object.material = static_cast<std::uint32_t>(out_.materials.size() - 1);
     }
@@ -145,6 +142,7 @@ class Builder {
     out_.licences.push_back({recipe_.skin.texture, "CC0-1.0 (MakeHuman core asset)", "MakeHuman"});
     const std::uint32_t material =
         add_material(pack::MaterialKind::skin, 0, add_image(image), 0.08f, 18.0f);
+    for (int k = 0; k < 3; ++k) out_.materials[material].tint[k] = recipe_.skin.tint[k];
     const MeshSource source{
         skin,
         figure_.base_m,
@@ -187,26 +185,24 @@ class Builder {
     const auto file = part.recipe.texture.empty() ? part.proxy.textures.front()
                                                   : part.proxy.folder / part.recipe.texture;
     LinearImage image = to_linear(read_image(file));
+    const std::string kind = part.proxy.name.substr(0, part.proxy.name.find('/'));
     // Brows and lashes are drawn black: they take the colour of the hair whole, softened a little.
     const bool hairs =
         part.proxy.name.starts_with("eyebrows") || part.proxy.name.starts_with("eyelashes");
-    const bool eyes = part.proxy.name.starts_with("eyes");
-    for (std::size_t i = 0; i < image.texel.size(); ++i) {
-      Vec4& t = image.texel[i];
+    for (Vec4& t : image.texel) {
       if (hairs) {
         t = Vec4{part.recipe.tint, part.recipe.softness * t.w};
         continue;
       }
       const float grey = glm::dot(Vec3{t}, Vec3{0.2126f, 0.7152f, 0.0722f});
-      const Vec3 dyed = glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint;
-      const Vec2 uv{
-          (static_cast<float>(i % image.width) + 0.5f) / static_cast<float>(image.width),
-          (static_cast<float>(i / image.width) + 0.5f) / static_cast<float>(image.height)};
-      t = Vec4{glm::mix(Vec3{t}, dyed, eyes ? iris_share(uv) : 1.0f), t.w};
+      t = Vec4{glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint, t.w};
     }
-    if (hairs) bleed_alpha(image);
+    if (kind == "eyes") paint_eyes(recipe_.eyes.iris, image);
+    if (kind == "eyebrows") thin_heads(part.proxy, part.position_m, image);
+    if (hairs) bleed_alpha(image, 0.02f);
+    // Thin ends are the colour of the strands they end, not of what they were once drawn upon.
+    if (kind == "hair") bleed_alpha(image, 0.5f);
     // Small things on the screen need no more than this.
-    const std::string kind = part.proxy.name.substr(0, part.proxy.name.find('/'));
     const std::uint32_t most = kind == "hair" || kind == "eyes" || kind == "clothes" ? 512 : 256;
     if (image.width > most || image.height > most)
       image = resize(image, std::min(image.width, most), std::min(image.height, most));

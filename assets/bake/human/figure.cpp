@@ -35,28 +35,28 @@ void settle_licence(Licence& licence) {
 
 // See PartRecipe::drop_above_m. Skin that only the dropped pieces hid shows again.
 void drop_high_pieces(FittedPart& part, std::span<const Vec3> base_m) {
-  const auto neighbours = edge_neighbours(part.proxy.quads, part.position_m.size());
-  std::vector<bool> dropped(part.position_m.size(), false), seen(part.position_m.size(), false);
+  const auto piece = pieces_of(part.proxy.quads, part.position_m.size());
+  std::vector<float> piece_top_m(piece.size(), 0.0f);
+  for (std::size_t v = 0; v < piece.size(); ++v)
+    piece_top_m[piece[v]] = std::max(piece_top_m[piece[v]], part.position_m[v].y);
   float top_m = 0;
-  for (std::uint32_t start = 0; start < seen.size(); ++start) {
-    if (seen[start]) continue;
-    std::vector<std::uint32_t> piece{start};
-    seen[start] = true;
-    float piece_top_m = 0;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      piece_top_m = std::max(piece_top_m, part.position_m[piece[i]].y);
-      for (const std::uint32_t n : neighbours[piece[i]])
-        if (!seen[n]) seen[n] = true, piece.push_back(n);
-    }
-    if (piece_top_m > part.recipe.drop_above_m)
-      for (const std::uint32_t v : piece) dropped[v] = true;
-    else
-      top_m = std::max(top_m, piece_top_m);
-  }
-  std::erase_if(part.proxy.quads, [&](const Quad& quad) { return dropped[quad.vertex[0]]; });
+  for (const float top : piece_top_m)
+    if (top <= part.recipe.drop_above_m) top_m = std::max(top_m, top);
+  std::erase_if(part.proxy.quads, [&](const Quad& quad) {
+    return piece_top_m[piece[quad.vertex[0]]] > part.recipe.drop_above_m;
+  });
   constexpr float kOpening_m = 0.045f;  // How far below its top one can look into a shoe.
   for (std::size_t v = 0; v < part.proxy.hides.size(); ++v)
     if (base_m[v].y > top_m - kOpening_m) part.proxy.hides[v] = false;
+}
+
+// See PartRecipe::upper_only: pieces whose middle lies below that of the eye.
+void drop_lower_pieces(FittedPart& part, float eye_m) {
+  const auto piece = pieces_of(part.proxy.quads, part.position_m.size());
+  std::vector<float> above_m(piece.size(), 0.0f);
+  for (std::size_t v = 0; v < piece.size(); ++v) above_m[piece[v]] += part.position_m[v].y - eye_m;
+  std::erase_if(part.proxy.quads,
+                [&](const Quad& quad) { return above_m[piece[quad.vertex[0]]] < 0.0f; });
 }
 
 }  // namespace
@@ -222,8 +222,10 @@ void stand(Figure& figure) {
   for (Vec3& p : figure.bone_head_m) p += shift;
   for (FittedPart& part : figure.parts)
     for (Vec3& p : part.position_m) p += shift;
-  for (FittedPart& part : figure.parts)
+  for (FittedPart& part : figure.parts) {
     if (part.recipe.drop_above_m > 0) drop_high_pieces(part, figure.base_m);
+    if (part.recipe.upper_only) drop_lower_pieces(part, figure.eye_center_m(0).y);
+  }
 }
 
 }  // namespace caryatid::bake

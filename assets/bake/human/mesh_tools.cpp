@@ -95,4 +95,23 @@ std::vector<std::vector<std::uint32_t>> edge_neighbours(std::span<const Quad> qu
   return out;
 }
 
+std::vector<std::uint32_t> pieces_of(std::span<const Quad> quads, std::size_t vertex_count) {
+  const auto neighbours = edge_neighbours(quads, vertex_count);
+  std::vector<std::uint32_t> out(vertex_count, kNone), open;
+  std::uint32_t piece = 0;
+  for (std::uint32_t start = 0; start < vertex_count; ++start) {
+    if (out[start] != kNone) continue;
+    out[start] = piece;
+    open.push_back(start);
+    while (!open.empty()) {
+      const std::uint32_t v = open.back();
+      open.pop_back();
+      for (const std::uint32_t n : neighbours[v])
+        if (out[n] == kNone) out[n] = piece, open.push_back(n);
+    }
+    ++piece;
+  }
+  return out;
+}
+
 }  // namespace caryatid::bake

@@ -30,6 +30,9 @@ Mesh make_mesh(const MeshSource& source, const std::function<bool(const Quad&)>&
 // Vertices of `mesh` by owner's vertex: first match or kNone.
 std::vector<std::uint32_t> slot_of_base(const Mesh& mesh, std::size_t base_count);
 
+// For every vertex the number of the connected piece that it belongs to; pieces count from 0.
+std::vector<std::uint32_t> pieces_of(std::span<const Quad> quads, std::size_t vertex_count);
+
 // Neighbours of every vertex along quad edges.
 std::vector<std::vector<std::uint32_t>> edge_neighbours(std::span<const Quad> quads,
                                                         std::size_t vertex_count);

@@ -52,7 +52,7 @@ Macro read_macro(const toml::table& t) {
 
 SkinRecipe read_skin(const toml::table& t) {
   expect_keys(t, {"texture", "tint", "lips", "lips_strength", "stubble", "lash_line", "eye_shadow",
-                  "blush", "hair_shadow", "scalp", "tights"});
+                  "blush", "hairline_m", "tights"});
   SkinRecipe s;
   s.texture = text(t, "texture");
   s.tint = triple(t, "tint", s.tint);
@@ -62,15 +62,14 @@ SkinRecipe read_skin(const toml::table& t) {
   s.lash_line = number(t, "lash_line", s.lash_line);
   s.eye_shadow = number(t, "eye_shadow", s.eye_shadow);
   s.blush = number(t, "blush", s.blush);
-  s.hair_shadow = triple(t, "hair_shadow", s.hair_shadow);
   s.tights = triple(t, "tights", s.tights);
-  s.scalp = number(t, "scalp", s.scalp);
+  s.hairline_m = number(t, "hairline_m", s.hairline_m);
   return s;
 }
 
 PartRecipe read_part(const toml::table& t) {
   expect_keys(t, {"proxy", "texture", "tint", "saturation", "softness", "gloss", "shininess",
-                  "grow_m", "drop_above_m"});
+                  "grow_m", "drop_above_m", "upper_only"});
   PartRecipe p;
   p.proxy = text(t, "proxy");
   p.texture = text(t, "texture");
@@ -81,6 +80,7 @@ PartRecipe read_part(const toml::table& t) {
   p.shininess = number(t, "shininess", p.shininess);
   p.grow_m = number(t, "grow_m", p.grow_m);
   p.drop_above_m = number(t, "drop_above_m", p.drop_above_m);
+  p.upper_only = t["upper_only"].value_or(false);
   return p;
 }
 

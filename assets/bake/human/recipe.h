@@ -30,9 +30,8 @@ struct SkinRecipe {
   float lash_line = 0.0f;  // 0..1, dark line at the upper lid.
   float eye_shadow = 0.0f;
   float blush = 0.15f;
-  Vec3 hair_shadow{0.12f, 0.08f, 0.06f};  // Scalp beneath the hair, sRGB.
-  Vec3 tights{-1.0f};                     // Multiplies the legs' skin, linear; negative: bare legs.
-  float scalp = 0.0f;                     // 0..1, how much the scalp takes hair_shadow.
+  float hairline_m = 0.010f;  // How far the short hairs of the hairline reach.
+  Vec3 tights{-1.0f};         // Multiplies the legs' skin, linear; negative: bare legs.
 };
 
 struct EyeRecipe {
@@ -52,6 +51,7 @@ struct PartRecipe {
   // Connected parts that reach above this height when the figure stands are left out: the socks of
   // a shoe. 0: all stay.
   float drop_above_m = 0.0f;
+  bool upper_only = false;  // Of lashes: those of the lower lid are left out.
 };
 
 struct Recipe {

@@ -8,33 +8,14 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "assets/bake/texture/atlas.h"
+#include "assets/bake/texture/hairline.h"
+
 namespace caryatid::bake {
 namespace {
 
 constexpr std::uint32_t kSide = 1024;
 constexpr float kMillimetre = 0.001f;
-
-float smooth_step(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
-}
-
-// Value noise in space, so that it has no seams; -1..1.
-float lattice(int x, int y, int z) {
-  auto h = static_cast<std::uint32_t>(x * 374761393 + y * 668265263 + z * 1274126177);
-  h = (h ^ (h >> 13)) * 1274126177u;
-  return static_cast<float>((h ^ (h >> 16)) & 0xFFFFu) / 32767.5f - 1.0f;
-}
-float noise(Vec3 p) {
-  const Vec3 f{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
-  Vec3 t = p - f;
-  t = t * t * (3.0f - 2.0f * t);
-  const int x = static_cast<int>(f.x), y = static_cast<int>(f.y), z = static_cast<int>(f.z);
-  const auto row = [&](int dy, int dz) {
-    return glm::mix(lattice(x, y + dy, z + dz), lattice(x + 1, y + dy, z + dz), t.x);
-  };
-  return glm::mix(glm::mix(row(0, 0), row(1, 0), t.y), glm::mix(row(0, 1), row(1, 1), t.y), t.z);
-}
 
 // A monotone map of an interval to 0..1 that gives [low, high] the share `room`.
 struct Stretch {
@@ -103,16 +84,10 @@ void lay_out(Mesh& mesh, Vec2 eye_uv, Vec2 chin_uv) {
     }
 }
 
-// A point of the skin as the painter sees it.
-struct SkinPoint {
-  Vec3 position_m, normal;
-  Vec2 old_uv;
-  bool is_face = false;
-};
-
 class Painter {
  public:
-  Painter(const Character& c, const SkinRecipe& recipe) : character_(c), recipe_(recipe) {
+  Painter(const Character& c, const SkinRecipe& recipe, const std::vector<Vec3>& border_m)
+      : character_(c), recipe_(recipe), border_m_(border_m) {
     constexpr std::array<int, 10> kOutline = {3, 5, 10, 1, 9, 6, 4, 8, 2, 7};
     for (const int i : kOutline) outline_.push_back(flat(8, i));
     for (const int i : {4, 6, 2, 7, 5}) line_.push_back(flat(2, i));
@@ -124,8 +99,11 @@ class Painter {
   }
 
   Vec3 paint(const SkinPoint& p, Vec3 skin) const {
-    if (!p.is_face) return skin;
-    const float there = smooth_step(neck_m_ - 0.03f, neck_m_ + 0.03f, p.position_m.y);
+    if (!p.is_outer) return skin;
+    float to_border_m = 1.0f;
+    for (const Vec3& b : border_m_)
+      to_border_m = std::min(to_border_m, glm::length(b - p.position_m));
+    const float there = smooth_step(0.005f, 0.045f, to_border_m);
     Vec3 c = skin;
     c = grain(p, c);
     c = blush(p, c);
@@ -255,37 +233,51 @@ class Painter {
 
   const Character& character_;
   const SkinRecipe& recipe_;
+  const std::vector<Vec3>& border_m_;
   std::vector<Vec2> outline_, line_;
   Vec3 eye_[2];
   float ball_m_ = 0.0f, neck_m_ = 0.0f;
 };
 
-// Calls f(x, y, barycentric weights) for the texels whose centres lie in a triangle of the atlas.
-template <class F>
-void for_texels(Vec2 a, Vec2 b, Vec2 c, F&& f) {
-  const auto side = static_cast<float>(kSide);
-  a *= side, b *= side, c *= side;
-  const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-  if (std::abs(area) < 1e-9f) return;
-  const auto cell = [](float v) {
-    return static_cast<std::uint32_t>(std::clamp(v, 0.0f, static_cast<float>(kSide - 1)));
-  };
-  for (std::uint32_t y = cell(std::min({a.y, b.y, c.y}) - 1);
-       y <= cell(std::max({a.y, b.y, c.y}) + 1); ++y)
-    for (std::uint32_t x = cell(std::min({a.x, b.x, c.x}) - 1);
-         x <= cell(std::max({a.x, b.x, c.x}) + 1); ++x) {
-      const Vec2 p{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-      const float wb = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
-      const float wc = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
-      const float wa = 1.0f - wb - wc;
-      if (wa >= -1e-4f && wb >= -1e-4f && wc >= -1e-4f) f(x, y, Vec3{wa, wb, wc});
-    }
+// The face's island and those of the neck, which reach the border; not the bag of the mouth and the
+// sockets.
+std::vector<bool> outer_vertices(const Mesh& head, const std::vector<Vec3>& border_m) {
+  std::vector<bool> out(head.uv.size(), false);
+  bool is_face = true;  // The first is the largest.
+  for (const Island& island : islands_of(head)) {
+    const bool outer =
+        is_face || std::any_of(island.vertices.begin(), island.vertices.end(), [&](auto v) {
+          return std::find(border_m.begin(), border_m.end(), head.position_m[v]) != border_m.end();
+        });
+    is_face = false;
+    for (const std::uint32_t v : island.vertices) out[v] = outer;
+  }
+  return out;
+}
+
+SkinMap map_of(const Mesh& head, const std::vector<Vec2>& old_uv, const std::vector<bool>& outer) {
+  SkinMap out{kSide, std::vector<SkinPoint>(std::size_t{kSide} * kSide)};
+  for (const auto& t : head.triangles)
+    for_texels(kSide, head.uv[t[0]], head.uv[t[1]], head.uv[t[2]],
+               [&](std::uint32_t x, std::uint32_t y, Vec3 w) {
+                 SkinPoint p;
+                 for (int k = 0; k < 3; ++k) {
+                   const std::uint32_t v = t[static_cast<std::size_t>(k)];
+                   p.position_m += w[k] * head.position_m[v];
+                   p.normal += w[k] * head.normal[v];
+                   p.old_uv += w[k] * old_uv[v];
+                 }
+                 p.is_outer = outer[t[0]];
+                 p.there = true;
+                 out.point[std::size_t{y} * kSide + x] = p;
+               });
+  return out;
 }
 
 }  // namespace
 
 Image paint_head(const Character& character, const SkinRecipe& recipe, const Image& skin,
-                 Mesh& head) {
+                 const std::vector<Vec3>& border_m, Mesh& head) {
   const LinearImage source = to_linear(skin);
   const std::vector<Vec2> old_uv = head.uv;
   const auto uv_of = [&](int group, int index) {
@@ -294,29 +286,20 @@ Image paint_head(const Character& character, const SkinRecipe& recipe, const Ima
     throw std::runtime_error(character.name + ": the head can't be laid out without its points");
   };
   lay_out(head, 0.5f * (uv_of(3, 1) + uv_of(3, 2)), uv_of(2, 1));
-  const Island face = islands_of(head).front();
-  std::vector<bool> is_face(head.uv.size(), false);
-  for (const std::uint32_t v : face.vertices) is_face[v] = true;
+  const std::vector<bool> is_outer = outer_vertices(head, border_m);
 
-  const Painter painter(character, recipe);
+  const Painter painter(character, recipe, border_m);
+  const SkinMap map = map_of(head, old_uv, is_outer);
   LinearImage atlas(kSide, kSide, Vec4{0.0f});
-  for (const auto& t : head.triangles)
-    for_texels(head.uv[t[0]], head.uv[t[1]], head.uv[t[2]],
-               [&](std::uint32_t x, std::uint32_t y, Vec3 w) {
-                 SkinPoint p;
-                 p.position_m = p.normal = Vec3{0};
-                 p.old_uv = Vec2{0};
-                 for (int k = 0; k < 3; ++k) {
-                   const std::uint32_t v = t[static_cast<std::size_t>(k)];
-                   p.position_m += w[k] * head.position_m[v];
-                   p.normal += w[k] * head.normal[v];
-                   p.old_uv += w[k] * old_uv[v];
-                 }
-                 p.is_face = is_face[t[0]];
-                 const Vec3 color{sample_bicubic(source, p.old_uv)};
-                 atlas.at(x, y) = Vec4{painter.paint(p, glm::max(color, 0.0f) * recipe.tint), 1.0f};
-               });
-  bleed_alpha(atlas);
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const SkinPoint& p = map.at(x, y);
+      if (!p.there) continue;
+      const Vec3 color{sample_bicubic(source, p.old_uv)};
+      atlas.at(x, y) = Vec4{painter.paint(p, glm::max(color, 0.0f)), 1.0f};
+    }
+  paint_hairline(character, map, recipe.hairline_m, atlas);
+  bleed_alpha(atlas, 0.02f);
   for (Vec4& t : atlas.texel) t.w = 1.0f;
   return to_srgb(atlas, character.name + "_head");
 }

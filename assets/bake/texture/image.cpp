@@ -133,7 +133,7 @@ LinearImage resize(const LinearImage& image, std::uint32_t width, std::uint32_t 
   return out;
 }
 
-void bleed_alpha(LinearImage& image) {
+void bleed_alpha(LinearImage& image, float below) {
   // Push-pull: averages of opaque texels on ever coarser grids fill the holes of the finer ones.
   std::vector<LinearImage> levels{image};
   for (Vec4& t : levels[0].texel) t = {t.x * t.w, t.y * t.w, t.z * t.w, t.w};
@@ -149,11 +149,11 @@ void bleed_alpha(LinearImage& image) {
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x) {
       Vec4& t = image.at(x, y);
-      for (std::size_t level = 0; level < levels.size() && t.w < 0.02f; ++level) {
+      for (std::size_t level = 0; level < levels.size() && t.w < below; ++level) {
         const LinearImage& grid = levels[level];
         const Vec4 mean =
             grid.at(std::min(x >> level, grid.width - 1), std::min(y >> level, grid.height - 1));
-        if (mean.w < 1e-3f) continue;
+        if (mean.w < 0.5f * below) continue;
         t = {mean.x / mean.w, mean.y / mean.w, mean.z / mean.w, t.w};
         break;
       }

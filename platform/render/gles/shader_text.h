@@ -175,14 +175,20 @@ vec3 expose(vec3 c) {
   vec3 over = max(c - 0.7, 0.0);
   return min(c, 0.7) + 0.3 * over / (0.3 + over);
 }
-// Keeps the part of a hair texture that this pass draws.
-void keep(float alpha) {
+// Keeps the part of a hair texture that this pass draws and gives how much it covers. What counts
+// as dense covers whole, so that the two passes meet without a step.
+float keep(float alpha) {
 #if PASS == 1
-  if (alpha < 0.55) discard;
+  if (alpha < 0.8) discard;
+  return 1.0;
 #elif PASS == 2 && KIND == 5
   if (alpha < 0.02) discard;  // Lashes and brows lie flat on what they cover: one pass will do.
+  return alpha;
 #elif PASS == 2
-  if (alpha < 0.02 || alpha >= 0.55) discard;
+  if (alpha < 0.02 || alpha >= 0.8) discard;
+  return alpha * 1.25;
+#else
+  return alpha;
 #endif
 }
 )";
@@ -198,7 +204,11 @@ varying vec3 v_specular;
 
 void main() {
   vec4 texel = texture2D(u_texture, v_uv);
-  keep(texel.a);
+#if TIER == 2 && KIND == 2
+  // Towards its outline a head of hair is single strands, not a wall.
+  texel.a *= clamp(5.0 * abs(dot(normalize(v_normal.xyz), normalize(v_view))) - 0.1, 0.0, 1.0);
+#endif
+  texel.a = keep(texel.a);
 #if TIER == 0
   gl_FragColor = vec4(texel.rgb * v_diffuse + v_specular, texel.a);
 #else
@@ -211,7 +221,10 @@ void main() {
 #else
   vec3 diffuse = v_diffuse, specular = v_specular;
 #endif
-#if KIND == 2
+#if KIND == 0
+  // Lips are redder than skin, and moist.
+  specular *= 1.0 + 1.6 * clamp(8.0 * albedo.r - 19.0 * albedo.g, 0.0, 1.0);
+#elif KIND == 2
   specular *= albedo * 1.1 + 0.012;  // Light that has passed through a strand takes its colour.
 #endif
 #if PASS == 3
