@@ -208,7 +208,8 @@ void paint_hairline(const Character& character, const SkinMap& skin, float reach
       const float strand = strands(x, y);
       // Strands over a veil of those too fine to be drawn.
       float alpha =
-          0.75f * smooth_step(-0.25f, 0.30f, density * 1.1f - (1.0f - strand)) + 0.25f * density;
+          0.75f * smooth_step(-0.25f, 0.30f, density * (1.0f + 0.6f * density) - (1.0f - strand)) +
+          0.25f * density;
       alpha *= 1.0f - ears.share(p.position_m);
       const Vec3 color = style.color() * (0.75f + 0.6f * strand);
       Vec4& texel = atlas.at(x, y);

@@ -117,7 +117,7 @@ TEST(Images, SamplingHitsTexelCentres) {
 TEST(Images, BleedingKeepsOpaqueTexelsAndAlpha) {
   LinearImage image(4, 4, Vec4{0, 0, 0, 0});
   image.at(0, 0) = {1, 0.5f, 0.25f, 1};
-  bleed_alpha(image);
+  bleed_alpha(image, 0.02f);
   EXPECT_EQ(image.at(0, 0), Vec4(1, 0.5f, 0.25f, 1));
   EXPECT_NEAR(image.at(3, 3).x, 1.0f, 1e-4f);
   EXPECT_EQ(image.at(3, 3).w, 0.0f);
