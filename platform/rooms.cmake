@@ -2,6 +2,8 @@
 find_package(PkgConfig REQUIRED)
 include(platform/buttons/room.cmake)
 include(platform/watchdog/room.cmake)
+include(platform/audio/room.cmake)
+include(platform/voice/room.cmake)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(X11 IMPORTED_TARGET x11)

@@ -21,7 +21,8 @@ struct Word {
   std::uint32_t begin_byte = 0,
                 end_byte = 0;  // Half open, in the UTF-8 text as given, tags and all.
   std::int32_t start_ms = 0;
-  std::int32_t end_ms = 0;      // The next word's start, or a pause before it.
+  // The next word's start or a pause before it; -1 until that is known.
+  std::int32_t end_ms = -1;
   std::int32_t stress_ms = -1;  // Where its stressed sound starts; negative: it has none.
   bool stressed() const { return stress_ms >= 0; }
 };
@@ -50,6 +51,10 @@ class Utterance {
   // Nothing follows; the voice's audio is `end_ms` long.
   void finish(std::int32_t end_ms);
 
+  // What is added from now on counts from this time and this byte of the text: another voice, or the
+  // same one again, goes on where the first one fell silent. Undoes finish().
+  void continue_at(std::int32_t base_ms, std::uint32_t base_byte);
+
   // Phones and sentences that ended before `heard_ms` may be overwritten.
   void forget_before(std::int32_t heard_ms);
 
@@ -73,7 +78,8 @@ class Utterance {
   FixedVector<Word, kMaxWords> words_;
   FixedVector<Mark, kMaxMarks> marks_;
   FixedVector<std::int32_t, kMaxSentences> sentences_;
-  std::int32_t end_ms_ = 0;
+  std::int32_t base_ms_ = 0, end_ms_ = 0;
+  std::uint32_t base_byte_ = 0;
   std::uint32_t dropped_ = 0;
   bool finished_ = false;
 };

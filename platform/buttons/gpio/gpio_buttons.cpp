@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "platform/buttons/gpio.h"
-#include "platform/buttons/retry.h"
+#include "platform/retry.h"
 
 namespace caryatid::platform {
 namespace {

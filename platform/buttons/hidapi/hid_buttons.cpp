@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "platform/buttons/hid.h"
-#include "platform/buttons/retry.h"
+#include "platform/retry.h"
 
 namespace caryatid::platform {
 namespace {

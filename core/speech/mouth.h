@@ -1,0 +1,39 @@
+#pragma once
+// The mouth of an utterance at a moment: neighbouring sounds blended by dominance functions (Cohen
+// and Massaro 1993), then contacts made certain that make a sound readable: lips shut on p b m,
+// lower lip at the teeth on f v, tongue seen on th and l. Looks ahead: lips move before the sound.
+#include <array>
+
+#include "core/face/fap.h"
+#include "core/face/visemes.h"
+#include "core/speech/utterance.h"
+
+namespace caryatid::speech {
+
+// How long before its sound a shape is on the screen. Half of the +15 (sound first) .. -45 ms
+// (sound last) in which people accept a picture, so that a frame of 1/30 s fits in.
+inline constexpr float kMouthLead_ms = 30.0f;
+// Events this far ahead of the moment have a say; a voice that streams must be ahead by as much.
+inline constexpr float kLookAhead_ms = 350.0f;
+
+struct MouthShape {
+  face::FapFrame faps;       // Mouth and tongue FAPs, inner and outer lips, all present.
+  face::VisemeField viseme;  // The nearest that FAP 1 can say.
+  float strength = 0.0f;     // 0 far from any sound .. 1: for face::MixJob::speech_strength.
+  float contact = 0.0f;      // 1: the contact of a sound is being held.
+};
+
+class Mouth {
+ public:
+  Mouth();  // Takes the shapes of face::viseme_frame(), about 20 us.
+
+  // now_ms: the moment in the utterance's audio that is heard when the picture is seen;
+  // kMouthLead_ms is added here. frame_ms: time until the next picture (clamped to 8..100): no
+  // contact is shorter than that, so that each is seen. About 3 us, no state.
+  MouthShape at(const Utterance& utterance, float now_ms, float frame_ms) const;
+
+ private:
+  std::array<face::FapFrame, face::kVisemeCount> shapes_;
+};
+
+}  // namespace caryatid::speech
