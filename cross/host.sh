@@ -27,6 +27,7 @@ packages=(
   libwayland-dev libwayland-bin wayland-protocols              # display on Wayland
   libegl-mesa0 libgl1-mesa-dri                                 # software rendering
   libgpiod-dev libhidapi-dev                                   # buttons
+  libasound2-dev libespeak-ng-dev espeak-ng-data               # sound and voice
   libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
   fonts-dejavu-core                                            # captions
   libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth weston # tests

@@ -208,6 +208,7 @@ bool Kiosk::start() {
     }
   }
   agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
+  open_speaker();
   set_stage();
   aim_camera();
   const std::string& name = options_.board;
@@ -356,6 +357,7 @@ void Kiosk::aim_camera() {
 }
 
 void Kiosk::act(const Tick& tick) {
+  const SpeechFrame& spoken = speak(tick);
   const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
   if (will.pressed) {
     ++presses_;
@@ -367,6 +369,8 @@ void Kiosk::act(const Tick& tick) {
   face::MixJob mix;
   mix.rest = &person_.rest_face();
   mix.emotion = &felt;
+  mix.speech = &spoken.face;
+  mix.speech_strength = spoken.mouth_strength;
   mix.idle = stage_ ? &stage_->idle_face() : &will.idle_face;
   mix.limits = &person_.limits();
   const body::BapFrame* baps = stage_ ? &stage_->body() : &will.body;
@@ -376,7 +380,10 @@ void Kiosk::act(const Tick& tick) {
     if (player_.baps() != nullptr) baps = player_.baps();
   }
   choose_levels(tick, will);
-  person_.show(mix.run(), *baps, Affine{}, tick.dt_s);
+  shown_ = mix.run();
+  body::BapFrame breathing = *baps;
+  if (spoken.breath > 0.0f) agent::inhale(spoken.breath, &breathing);
+  person_.show(shown_, breathing, Affine{}, tick.dt_s);
 }
 
 lod::SceneNeeds Kiosk::needs(bool busy) {
@@ -482,6 +489,7 @@ void Kiosk::measure(const Tick& tick) {
   m.render_scale = list_.render_scale;
   m.shading = static_cast<int>(list_.shading);
   m.emotion = agent_->emotion();
+  m.speech = speech_metrics();
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();
   report_.late_frames += m.late ? 1 : 0;

@@ -24,6 +24,7 @@
 #include "firmware-app/player.h"
 #include "firmware-app/png_writer.h"
 #include "firmware-app/service.h"
+#include "firmware-app/speaker.h"
 #include "platform/buttons/buttons.h"
 #include "platform/display/display.h"
 #include "platform/render/render.h"
@@ -70,6 +71,7 @@ class Kiosk {
   bool load_base(std::string* out_error);
   bool open_screen();
   bool open_outputs();
+  void open_speaker();
   bool frame(const Tick& tick);
   void poll_buttons(const Tick& tick);
   void load_more();
@@ -77,6 +79,8 @@ class Kiosk {
   float picture_aspect() const;
   void aim_camera();
   void act(const Tick& tick);
+  const SpeechFrame& speak(const Tick& tick);
+  SpeechMetrics speech_metrics() const;
   void choose_levels(const Tick& tick, const agent::Intentions& will);
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
@@ -99,6 +103,8 @@ class Kiosk {
   std::unique_ptr<agent::Stage> stage_;  // None where the person has no legs, or a stream plays.
   scene::Subject subject_;               // At rest.
   Player player_;
+  Speaker speaker_;
+  face::FapFrame shown_;  // The face of the last frame, mixed.
   std::unique_ptr<platform::Display> display_;
   std::unique_ptr<platform::Renderer> renderer_;
   std::unique_ptr<platform::Buttons> script_;

@@ -48,7 +48,8 @@ void Kiosk::obey(std::string_view line, platform::ControlReply& reply) {
     case CommandKind::help:
       return answer(reply, kCommands);
     case CommandKind::say:
-      return refuse(reply, "this build has no voice");
+      speaker_.say(c.text, {.language = options_.language});
+      return answer(reply, "ok");
     case CommandKind::play:
       return play(c.text, reply);
     case CommandKind::wrong:

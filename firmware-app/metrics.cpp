@@ -3,6 +3,25 @@
 #include <algorithm>
 
 namespace caryatid::app {
+namespace {
+
+void write_speech(std::FILE* file, const SpeechMetrics& m) {
+  if (!m.speaking) return;
+  const auto number = [file](const char* name, float value) {
+    std::fprintf(file, "\"%s\":%.1f,", name, static_cast<double>(value));
+  };
+  std::fputs("\"speech\":{", file);
+  number("heard_ms", m.heard_ms);
+  number("strength_percent", 100.0f * m.strength);
+  number("jaw", m.jaw);
+  number("upper_lip", m.upper_lip);
+  number("lower_lip", m.lower_lip);
+  number("lower_thrust", m.lower_thrust);
+  number("tongue_forward", m.tongue_forward);
+  std::fprintf(file, "\"word\":%d},", m.word);
+}
+
+}  // namespace
 
 bool MetricsFile::open(const char* path) {
   file_ = std::fopen(path, "w");
@@ -28,11 +47,11 @@ bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
   const std::size_t objects = std::min(m.lod.size(), pack.objects.size());
   for (std::size_t o = 0; o < objects; ++o)
     std::fprintf(file_, "%s\"%s\":%u", o > 0 ? "," : "", pack.objects[o].name, m.lod[o]);
-  std::fprintf(file_,
-               "},\"render_scale\":%.3f,\"shading\":%d,\"emotion\":\"%s\",\"viseme\":%d,"
-               "\"allocations_since_seal\":%llu,\"arena_bytes_used\":%llu}\n",
+  std::fprintf(file_, "},\"render_scale\":%.3f,\"shading\":%d,\"emotion\":\"%s\",\"viseme\":%d,",
                static_cast<double>(m.render_scale), m.shading,
-               emotion::kEmotionNames[emotion::index_of(m.emotion)].data(), m.viseme,
+               emotion::kEmotionNames[emotion::index_of(m.emotion)].data(), m.speech.viseme);
+  write_speech(file_, m.speech);
+  std::fprintf(file_, "\"allocations_since_seal\":%llu,\"arena_bytes_used\":%llu}\n",
                static_cast<unsigned long long>(m.allocations_since_seal),
                static_cast<unsigned long long>(m.arena_bytes_used));
   if (std::ferror(file_) == 0) return true;

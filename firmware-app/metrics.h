@@ -9,6 +9,16 @@
 
 namespace caryatid::app {
 
+// The mouth and what is heard with it; FAPs 3, 4, 5, 16 and 45 of the face that is shown.
+struct SpeechMetrics {
+  bool speaking = false;
+  float heard_ms = 0.0f;  // Position in the utterance.
+  int word = -1;
+  int viseme = 0;  // That is shown the most, 0..14.
+  float strength = 0.0f;
+  float jaw = 0.0f, upper_lip = 0.0f, lower_lip = 0.0f, lower_thrust = 0.0f, tongue_forward = 0.0f;
+};
+
 struct FrameMetrics {
   double time_s = 0.0;
   double frame_ms = 0.0;  // From the frame before to this one.
@@ -20,7 +30,7 @@ struct FrameMetrics {
   float render_scale = 1.0f;
   int shading = 0;
   emotion::Emotion emotion = emotion::Emotion::calm;
-  int viseme = 0;
+  SpeechMetrics speech;
   std::uint64_t allocations_since_seal = 0;
   std::uint64_t arena_bytes_used = 0;
 };

@@ -30,6 +30,10 @@ usage: caryatid [OPTIONS]
                          (default), pi3, pi4, mali450, gc7000
   --duration S           stop after S seconds
   --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of it
+  --audio KIND           auto, alsa, alsa:DEVICE, file:PATH.wav or null (default auto: ALSA's
+                         default device, else null; under --virtual-clock null)
+  --voice PATH           the program that speaks (default: caryatid-voice beside this one)
+  --say TEXT             speak this at the start, in --language TAG (default en)
   --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
   --metrics FILE         JSON lines, one a frame
   --control PATH         listen at a Unix socket, one line a command: press NAME, release NAME,
@@ -62,6 +66,10 @@ enum Id : int {
   kFramesEvery,
   kMetrics,
   kPlay,
+  kAudio,
+  kVoice,
+  kSay,
+  kLanguage,
   kLod,
   kView,
   kSeed,
@@ -90,6 +98,10 @@ constexpr option kLong[] = {
     {"frames-every", required_argument, nullptr, kFramesEvery},
     {"metrics", required_argument, nullptr, kMetrics},
     {"play", required_argument, nullptr, kPlay},
+    {"audio", required_argument, nullptr, kAudio},
+    {"voice", required_argument, nullptr, kVoice},
+    {"say", required_argument, nullptr, kSay},
+    {"language", required_argument, nullptr, kLanguage},
     {"lod", required_argument, nullptr, kLod},
     {"view", required_argument, nullptr, kView},
     {"seed", required_argument, nullptr, kSeed},
@@ -146,6 +158,13 @@ bool size_of(const char* text, Options* out) {
   out->width = w;
   out->height = h;
   return true;
+}
+
+bool audio_kind(const char* text, Options* out) {
+  out->audio = text;
+  const bool named = out->audio.starts_with("alsa:") || out->audio.starts_with("file:");
+  if (named && out->audio.size() > 5) return true;
+  return one_of("audio", text, {"auto", "alsa", "alsa:DEVICE", "file:PATH", "null"}, &out->audio);
 }
 
 bool rotation(const char* text, Options* out) {
@@ -212,6 +231,17 @@ bool take(int id, const char* text, Options* o) {
       return true;
     case kPlay:
       o->play = text;
+      return true;
+    case kAudio:
+      return audio_kind(text, o);
+    case kVoice:
+      o->voice = text;
+      return true;
+    case kSay:
+      o->say = text;
+      return true;
+    case kLanguage:
+      o->language = text;
       return true;
     case kLod:
       o->lod = text;

@@ -20,6 +20,10 @@ struct Options {
   std::uint32_t frames_every = 1;
   std::string metrics;
   std::string play;
+  std::string audio = "auto";  // auto, alsa, alsa:DEVICE, file:PATH, null.
+  std::string voice;           // Path of caryatid-voice; empty: beside this program.
+  std::string say;
+  std::string language = "en";  // Of `say`.
   std::string lod = "auto";
   std::string view = "auto";  // auto, head, bust, body.
   std::string control;        // Empty: no control socket; so for the three files below.

@@ -126,7 +126,7 @@ struct Speaker::State {
   float silent_from_ms = 0.0f;
   double last_s = 0.0;
   bool stepped = false;
-  float onset = 0.0f;        // 0..1: how far the mouth is the voice's.
+  float onset = 0.0f;         // 0..1: how far the mouth is the voice's.
   face::FapFrame last_mouth;  // Held while the mouth goes back to the mood.
   FixedString<255> trouble;
   SpeechFrame frame;
@@ -136,12 +136,12 @@ Speaker::Speaker() : state_(std::make_unique<State>(1)) {}
 Speaker::~Speaker() = default;
 
 bool Speaker::open(const SpeakerOptions& options, std::string* out_error) {
-  *state_ = State(options.seed);
+  state_ = std::make_unique<State>(options.seed);
   State& s = *state_;
   s.lockstep = options.lockstep;
   platform::ErrorLine error;
-  platform::AudioOptions audio{.kind = options.audio, .rate_hz = kRate_hz,
-                               .lockstep = options.lockstep};
+  platform::AudioOptions audio{
+      .kind = options.audio, .rate_hz = kRate_hz, .lockstep = options.lockstep};
   bool ok = platform::open_audio(audio, s.audio, error).ok();
   if (!ok) {
     *out_error = error.c_str();
@@ -222,8 +222,10 @@ bool Speaker::State::begin_voice(std::int64_t now_us) {
   }
   if (voice == nullptr && synthesis) {
     const Status status = synthesis->say(job, now_us);
-    if (status.ok()) voice = synthesis.get();
-    else if (status.code != Code::not_ready) go_silent(synthesis->trouble());
+    if (status.ok())
+      voice = synthesis.get();
+    else if (status.code != Code::not_ready)
+      go_silent(synthesis->trouble());
   } else if (voice == nullptr) {
     go_silent("there is no voice; install caryatid-voice and espeak-ng-data");
   }
@@ -267,8 +269,15 @@ void Speaker::State::lost(Status status, std::int64_t now_us) {
 void Speaker::State::waiting_step(std::int64_t now_us) {
   if (synthesis) {
     std::size_t none = 0;
-    (void)synthesis->pump(now_us, {}, &none, &utterance);
-    if (synthesis->ready() && begin_voice(now_us)) return;
+    do {
+      (void)synthesis->pump(now_us, {}, &none, &utterance);
+      if (synthesis->ready() && begin_voice(now_us)) return;
+      if (!lockstep) break;
+      // Frames do not pass while the voice starts, so that each run starts alike.
+      pollfd fd{synthesis->descriptor(), POLLIN, 0};
+      (void)poll(&fd, fd.fd >= 0 ? 1 : 0, 20);
+      now_us = platform::monotonic_us();
+    } while (mode == Mode::waiting && now_us - waiting_since_us <= kPatience_us);
   }
   if (mode == Mode::waiting && now_us - waiting_since_us > kPatience_us)
     go_silent(synthesis ? synthesis->trouble() : "there is no voice");
@@ -331,9 +340,9 @@ void Speaker::State::voiced_step(double time_s) {
   if (mode == Mode::waiting) waiting_step(now_us);
   if (mode == Mode::voiced) fill(now_us);
   frame.started = before == 0 && heard > 0;
-  frame.played_ms =
-      static_cast<float>(static_cast<double>(heard) * 1000.0 / audio->rate_hz());
-  utterance.forget_before(static_cast<std::int32_t>(frame.played_ms - 2.0f * speech::kLookAhead_ms));
+  frame.played_ms = static_cast<float>(static_cast<double>(heard) * 1000.0 / audio->rate_hz());
+  utterance.forget_before(
+      static_cast<std::int32_t>(frame.played_ms - 2.0f * speech::kLookAhead_ms));
   const bool all_in = utterance.finished() && out_sent == out_count;
   if (mode == Mode::voiced && all_in && heard >= written) end();
 }
@@ -412,6 +421,7 @@ const SpeechFrame& Speaker::step(double time_s) {
   return f;
 }
 
+const SpeechFrame& Speaker::frame() const { return state_->frame; }
 std::string_view Speaker::text() const { return {state_->text.data(), state_->text_bytes}; }
 std::span<const speech::Word> Speaker::words() const { return state_->utterance.words(); }
 const char* Speaker::trouble() const { return state_->trouble.c_str(); }

@@ -82,6 +82,8 @@ class Speaker {
   // device. No allocation; under 100 us.
   const SpeechFrame& step(double time_s);
 
+  // Of the last step.
+  const SpeechFrame& frame() const;
   // The text that is or was last spoken (as cut and mended), and its words.
   std::string_view text() const;
   std::span<const speech::Word> words() const;

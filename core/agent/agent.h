@@ -35,6 +35,8 @@ class Agent {
 
   // The same for other programs of the deployer (--control): an emotion at a strength 0..1.
   void feel(emotion::Emotion e, float strength);
+  // At a phrase's end, say.
+  void blink() { idle_.blink_now(); }
 
   emotion::Emotion emotion() const { return out_.emotion; }
 

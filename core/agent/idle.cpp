@@ -34,6 +34,19 @@ float Wander::step(float dt_s, Random* random) {
   return value_;
 }
 
+void inhale(float chest, body::BapFrame* io) {
+  const auto add = [io](int bap, float degrees) {
+    io->set(bap, io->get(bap) + degrees * kDegree * kAnglesPerRadian);
+  };
+  // Breath opens the chest: vt6 and vt10 lean back (tilts turn about -X), vc7 gives it back so that
+  // the head stays; the clavicles rise (abduction is about +Z on both sides).
+  add(89, 0.5f * chest);   // vt6_tilt
+  add(101, 0.3f * chest);  // vt10_tilt
+  add(71, -0.8f * chest);  // vc7_tilt
+  add(24, 0.9f * chest);   // l_sternoclavicular_abduct
+  add(25, -0.9f * chest);  // r_sternoclavicular_abduct
+}
+
 void Blinker::blink_now() {
   if (clock_s_ < 0.0f) clock_s_ = 0.0f;
 }
@@ -121,13 +134,7 @@ void IdleLife::apply(body::BapFrame* baps) const {
   const auto add = [baps](int bap, float degrees) {
     baps->set(bap, baps->get(bap) + degrees * kDegree * kAnglesPerRadian);
   };
-  // Breath opens the chest: vt6 and vt10 lean back (tilts turn about -X), vc7 gives it back so that
-  // the head stays; the clavicles rise (abduction is about +Z on both sides).
-  add(89, 0.5f * chest);   // vt6_tilt
-  add(101, 0.3f * chest);  // vt10_tilt
-  add(71, -0.8f * chest);  // vc7_tilt
-  add(24, 0.9f * chest);   // l_sternoclavicular_abduct
-  add(25, -0.9f * chest);  // r_sternoclavicular_abduct
+  inhale(chest, baps);
   // Sway: the trunk over the hips, the neck against it.
   add(108, 0.5f * sway_side_.value());    // vl1_roll
   add(110, 0.35f * sway_front_.value());  // vl1_tilt

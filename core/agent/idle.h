@@ -40,6 +40,9 @@ class Blinker {
   float closure_ = 0.0f;
 };
 
+// Adds a breath to a body: how far the chest is open, 0..1 (a deep one a little more).
+void inhale(float chest, body::BapFrame* io);
+
 // Where the eyes look, as angles from straight ahead.
 struct Gaze {
   float yaw_rad = 0.0f;    // Positive: to the figure's left.

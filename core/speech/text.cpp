@@ -80,7 +80,8 @@ std::uint32_t next_sentence(std::span<const char> text, std::uint32_t from) {
     if (!ends_sentence(text, i)) continue;
     // Inside a number or an abbreviation no blank follows.
     std::size_t next = i + 1;
-    while (next < text.size() && (ends_sentence(text, next) || follows(byte_at(text, next)))) ++next;
+    while (next < text.size() && (ends_sentence(text, next) || follows(byte_at(text, next))))
+      ++next;
     if (next < text.size() && !is_blank(text[next]) && text[i] != '\n') continue;
     while (next < text.size() && is_blank(text[next])) ++next;
     return static_cast<std::uint32_t>(next);

@@ -10,7 +10,8 @@ namespace caryatid::speech {
 
 // Copies `text` into `out`, at most out.size() bytes: invalid UTF-8 becomes U+FFFD, control
 // characters become blanks, and what does not fit is cut after a whole word (a whole character when
-// there is no blank). Returns the bytes written; *out_cut tells whether text was left out. O(bytes).
+// there is no blank). Returns the bytes written; *out_cut tells whether text was left out.
+// O(bytes).
 std::size_t mend_text(std::span<const char> text, std::span<char> out, bool* out_cut);
 
 struct ByteRange {

@@ -51,8 +51,8 @@ class Utterance {
   // Nothing follows; the voice's audio is `end_ms` long.
   void finish(std::int32_t end_ms);
 
-  // What is added from now on counts from this time and this byte of the text: another voice, or the
-  // same one again, goes on where the first one fell silent. Undoes finish().
+  // What is added from now on counts from this time and this byte of the text: another voice, or
+  // the same one again, goes on where the first one fell silent. Undoes finish().
   void continue_at(std::int32_t base_ms, std::uint32_t base_byte);
 
   // Phones and sentences that ended before `heard_ms` may be overwritten.

@@ -1,0 +1,46 @@
+// The kiosk's side of speech: the speaker, and what face, body and eyes do with it.
+#include <cstdio>
+
+#include "firmware-app/kiosk.h"
+
+namespace caryatid::app {
+
+// A kiosk without voice or sound still shows her and her captions.
+void Kiosk::open_speaker() {
+  std::string error;
+  const SpeakerOptions options{.audio = options_.audio,
+                               .voice = options_.voice,
+                               .lockstep = options_.virtual_clock,
+                               .seed = options_.seed};
+  if (!speaker_.open(options, &error)) std::fprintf(stderr, "caryatid: %s\n", error.c_str());
+  if (!options_.say.empty()) speaker_.say(options_.say, {.language = options_.language});
+}
+
+// What she says in this frame, for the mixer; her eyes know when to blink.
+const SpeechFrame& Kiosk::speak(const Tick& tick) {
+  const bool said_nothing = *speaker_.trouble() == '\0';
+  const SpeechFrame& spoken = speaker_.step(tick.time_s);
+  if (said_nothing && *speaker_.trouble() != '\0')
+    std::fprintf(stderr, "caryatid: speech: %s (captions go on)\n", speaker_.trouble());
+  if (spoken.blink) agent_->blink();
+  return spoken;
+}
+
+SpeechMetrics Kiosk::speech_metrics() const {
+  const SpeechFrame& spoken = speaker_.frame();
+  SpeechMetrics m;
+  m.speaking = spoken.speaking;
+  m.heard_ms = spoken.played_ms;
+  m.word = spoken.word;
+  m.strength = spoken.mouth_strength;
+  const face::VisemeField& v = spoken.viseme;
+  m.viseme = v.blend >= 32 ? v.first : v.second;
+  m.jaw = shown_.get(3);
+  m.upper_lip = shown_.get(4);
+  m.lower_lip = shown_.get(5);
+  m.lower_thrust = shown_.get(16);
+  m.tongue_forward = shown_.get(45);
+  return m;
+}
+
+}  // namespace caryatid::app
