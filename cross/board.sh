@@ -20,9 +20,9 @@ TEXT
 packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-certificates
   libwayland-bin)
 # For the board: what caryatid and its tests link to.
-libraries=(libc6-dev libgles-dev libegl-dev libx11-dev libwayland-dev wayland-protocols
-  libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev libtomlplusplus-dev
-  libstb-dev libgtest-dev libgmock-dev libbenchmark-dev)
+libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libwayland-dev
+  wayland-protocols libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev
+  libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }

@@ -23,7 +23,7 @@ TEXT
 packages=(
   ca-certificates g++ cmake ninja-build pkg-config python3     # build
   libglm-dev libtomlplusplus-dev libcli11-dev                  # headers
-  libgles-dev libegl-dev libx11-dev                            # display
+  libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev      # display
   libwayland-dev libwayland-bin wayland-protocols              # display on Wayland
   libegl-mesa0 libgl1-mesa-dri                                 # software rendering
   libgpiod-dev libhidapi-dev                                   # buttons

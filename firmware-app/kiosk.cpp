@@ -137,6 +137,7 @@ bool Kiosk::open_screen() {
   platform::DisplayOptions d;
   d.width = options_.width;
   d.height = options_.height;
+  d.insists_on_size = options_.size_given;
   if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
   if (options_.display == "window") d.kind = platform::DisplayKind::window;
   if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
@@ -156,6 +157,19 @@ bool Kiosk::open_screen() {
     return true;
   complain(error.c_str());
   return false;
+}
+
+// After a GPU reset or when the driver has lost its flips: the arena still holds all that the GPU
+// had. Allocates, as every start does. A board that needs this again and again must start anew.
+bool Kiosk::reopen_screen() {
+  constexpr int kOften = 3;
+  std::fputs("caryatid: the screen or the GPU was lost; opening it again\n", stderr);
+  renderer_.reset();  // Its objects live in the display's context.
+  display_.reset();
+  if (++reopened_ > kOften || !open_screen()) return false;
+  for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
+    if (texture_whole_[t]) (void)renderer_->upload_texture(static_cast<std::uint16_t>(t), true);
+  return true;
 }
 
 bool Kiosk::open_outputs() {
@@ -214,7 +228,9 @@ bool Kiosk::start() {
   const std::string& name = options_.board;
   const lod::BoardCosts* costs = lod::find_board({name.data(), name.size()});
   lod::LodConfig lod_config;
-  const float refresh_hz = costs != nullptr ? costs->refresh_hz : 60.0f;
+  float refresh_hz = costs != nullptr ? costs->refresh_hz : 60.0f;
+  if (!options_.virtual_clock && display_ && display_->refresh_us() > 0)
+    refresh_hz = 1e6f / static_cast<float>(display_->refresh_us());
   const float vblanks = refresh_hz / static_cast<float>(options_.target_fps);
   lod_config.vblank_us = 1e6f / refresh_hz;
   lod_config.vblanks_per_frame = static_cast<std::uint16_t>(std::max(vblanks + 0.5f, 1.0f));
@@ -267,7 +283,11 @@ void Kiosk::watch(bool shown) {
   if (options_.virtual_clock) return;
   const std::int64_t now_us = platform::monotonic_us();
   if (shown && !told_ready_) told_ready_ = notifier_.ready().ok();
-  (void)notifier_.beat(now_us, {.flipped = shown, .input_ran = true, .audio_moved = true});
+  // Where the display counts its flips, only a new one is a sign of life.
+  const bool flipped = !visible() || flip_.count == 0 || flip_.count != flips_watched_;
+  flips_watched_ = flip_.count;
+  (void)notifier_.beat(now_us,
+                       {.flipped = shown && flipped, .input_ran = true, .audio_moved = true});
   if (service_.due(now_us)) {
     KioskStatus s = status();
     service_.fill(&s);
@@ -308,17 +328,32 @@ void Kiosk::load_more() {
   if (fixed_) fix_levels();
 }
 
+// The first press of this frame's events, on the monotonic clock.
+void Kiosk::note_press(const platform::ButtonEvents& events, std::int64_t to_monotonic_us) {
+  for (const ButtonEvent& e : events) {
+    const std::int64_t time_us = e.time_us + to_monotonic_us;
+    if (e.pressed && (pressed_us_ == 0 || time_us < pressed_us_)) pressed_us_ = time_us;
+  }
+}
+
 void Kiosk::poll_buttons(const Tick& tick) {
   events_.clear();
+  pressed_us_ = 0;
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
-  if (script_) (void)script_->poll(now_us, events_);
+  const std::int64_t began_us = tick.start_us - now_us;
   panel_.poll(platform::monotonic_us(), events_);
+  note_press(events_, 0);
+  platform::ButtonEvents others;
+  if (script_) (void)script_->poll(now_us, others);
+  note_press(others, began_us);
+  for (const ButtonEvent& e : others) (void)events_.push(e);
   service_.control().poll(this, [](void* self, std::span<const char> line, auto& reply) {
     static_cast<Kiosk*>(self)->obey({line.data(), line.size()}, reply);
   });
   if (!display_) return;
   platform::DisplayEvents from_display;
   if (!display_->poll(now_us, from_display).ok()) return;
+  note_press(from_display.buttons, began_us);
   for (const ButtonEvent& e : from_display.buttons) (void)events_.push(e);
   close_requested_ = close_requested_ || from_display.close_requested;
   if (from_display.resized) (void)renderer_->resize(display_->width(), display_->height());
@@ -429,12 +464,11 @@ bool Kiosk::draw(const Tick& tick) {
     job.shading = budget_->decision().shading;
   }
   if (!job.run(&list_).ok()) return false;
+  // Drawn for nobody, a board would only grow warm; what changed meanwhile stays collected.
+  if (!visible()) return true;
   person_.collect_patches(&list_.patches);
   const Status drawn = renderer_->draw(list_);
-  if (drawn.code == Code::device_lost) {
-    std::fputs("caryatid: the GPU was lost; start again\n", stderr);
-    return false;
-  }
+  if (drawn.code == Code::device_lost) return reopen_screen();
   if (frames_out_.wants(frame_number_)) {
     if (renderer_->read_back(frames_out_.buffer()).ok() &&
         !frames_out_.add(frame_number_, tick.time_s)) {
@@ -445,8 +479,9 @@ bool Kiosk::draw(const Tick& tick) {
   }
   if (!display_) return true;
   const Status shown = display_->present();
-  if (shown.code == Code::device_lost)
-    std::fputs("caryatid: the display was lost (its server or the GPU); start again\n", stderr);
+  if (shown.code == Code::device_lost) return reopen_screen();
+  flip_ = display_->last_flip();
+  if (shown.ok() && flip_.count == 0) flip_.time_us = platform::monotonic_us();
   return shown.ok();
 }
 
@@ -465,9 +500,10 @@ void Kiosk::measure(const Tick& tick) {
     sample_ = board_->run(work, budget_->decision().frame_divisor);
   } else {
     sample_ = {};
-    sample_.time_us = static_cast<std::uint64_t>(now_us);
-    sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us);
-    if (display_) sample_.vblanks = display_->vblanks();
+    sample_.time_us = static_cast<std::uint64_t>(flip_.count > 0 ? flip_.time_us : now_us);
+    if (visible())
+      sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us) - flip_.waited_us;
+    if (visible()) sample_.vblanks = flip_.vblanks;
     sample_.drawn = work;
     sample_.thermal = static_cast<lod::ThermalLevel>(heat_.heat);
   }
@@ -490,6 +526,8 @@ void Kiosk::measure(const Tick& tick) {
   m.shading = static_cast<int>(list_.shading);
   m.emotion = agent_->emotion();
   m.speech = speech_metrics();
+  if (pressed_us_ != 0 && visible() && !options_.virtual_clock)
+    m.reaction_ms = static_cast<double>((display_ ? flip_.time_us : now_us) - pressed_us_) * 1e-3;
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();
   report_.late_frames += m.late ? 1 : 0;

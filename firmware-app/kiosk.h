@@ -70,10 +70,12 @@ class Kiosk {
   bool open_person();
   bool load_base(std::string* out_error);
   bool open_screen();
+  bool reopen_screen();
   bool open_outputs();
   void open_speaker();
   bool frame(const Tick& tick);
   void poll_buttons(const Tick& tick);
+  void note_press(const platform::ButtonEvents& events, std::int64_t to_monotonic_us);
   void load_more();
   void set_stage();
   float picture_aspect() const;
@@ -89,6 +91,7 @@ class Kiosk {
   bool press(std::string_view name, bool down);
   void play(std::string_view file, platform::ControlReply& reply);
   KioskStatus status() const;
+  bool visible() const { return !display_ || display_->visible(); }
   void print_memory();
   void fix_levels();
   lod::SceneNeeds needs(bool busy);
@@ -131,6 +134,10 @@ class Kiosk {
   std::uint32_t decision_seen_ = 0;
   float decision_wait_s_ = 0.0f;
   lod::FrameSample sample_;
+  platform::Flip flip_;              // Of this frame.
+  std::uint64_t flips_watched_ = 0;  // Told to the supervisor.
+  std::int64_t pressed_us_ = 0;      // The first edge of a press that this frame shows; 0: none.
+  int reopened_ = 0;
   std::array<bool, kMaxTextures> texture_whole_{};
   bool refinement_ended_ = false;
   bool close_requested_ = false;

@@ -42,6 +42,7 @@ bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
     std::fputs("\"gpu_ms\":null,", file_);
   else
     std::fprintf(file_, "\"gpu_ms\":%.3f,", m.gpu_ms);
+  if (m.reaction_ms >= 0.0) std::fprintf(file_, "\"reaction_ms\":%.3f,", m.reaction_ms);
   std::fprintf(file_, "\"late\":%s,\"triangles\":%u,\"lod\":{", m.late ? "true" : "false",
                m.triangles);
   const std::size_t objects = std::min(m.lod.size(), pack.objects.size());

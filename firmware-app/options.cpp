@@ -17,7 +17,8 @@ usage: caryatid [OPTIONS]
   --config FILE          kiosk.toml: buttons and what they do (default: the built-in programme)
   --pack FILE            the character, made by caryatid-tool bake (default: a built-in face)
   --display KIND         auto, drm, window, surfaceless or none (default auto)
-  --size WxH             pixels of a window or surfaceless picture (default 800x480)
+  --size WxH             pixels of a window or surfaceless picture (default 800x480), or the
+                         screen's mode (default: what the screen prefers)
   --rotate DEGREES       0, 90, 180 or 270
   --target-fps N         frames a second, 1..120 (default 30)
   --view NAME            auto (the person walks in and the camera comes to the head), or stay at
@@ -157,6 +158,7 @@ bool size_of(const char* text, Options* out) {
     return wrong("size", text, "WIDTHxHEIGHT, each from 16 to 4096");
   out->width = w;
   out->height = h;
+  out->size_given = true;
   return true;
 }
 

@@ -10,6 +10,7 @@ struct Options {
   std::string pack;              // Empty: the built-in face.
   std::string display = "auto";  // auto, drm, window, surfaceless, none.
   std::uint32_t width = 800, height = 480;
+  bool size_given = false;  // --size: a screen's own preference does not count.
   std::uint32_t rotate_degrees = 0;
   std::uint32_t target_fps = 30;
   std::string script;

@@ -22,6 +22,7 @@ else()
   message(STATUS "display: no X11 window (libx11-dev is missing)")
 endif()
 include(platform/display/wayland/backend.cmake)
+include(platform/display/gbm/backend.cmake)
 add_library(caryatid_display STATIC ${display_sources})
 target_compile_definitions(caryatid_display PRIVATE ${display_definitions})
 target_link_libraries(caryatid_display PUBLIC caryatid_base

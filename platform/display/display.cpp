@@ -5,6 +5,9 @@
 
 #include "platform/display/egl_context.h"
 #include "platform/display/surfaceless/surfaceless.h"
+#ifdef CARYATID_DISPLAY_GBM
+#include "platform/display/gbm/gbm.h"
+#endif
 #ifdef CARYATID_DISPLAY_WAYLAND
 #include "platform/display/wayland/wayland.h"
 #endif
@@ -54,8 +57,18 @@ Status try_window(const DisplayOptions& options, std::unique_ptr<Display>& out,
   return status;
 }
 
+Status try_drm([[maybe_unused]] const DisplayOptions& options,
+               [[maybe_unused]] std::unique_ptr<Display>& out, ErrorLine& out_error) {
+#ifdef CARYATID_DISPLAY_GBM
+  return open_gbm(options, out, out_error);
+#else
+  return not_built("this build has no drm display; see the packages of cross/host.sh", out_error);
+#endif
+}
+
 Status try_automatic(const DisplayOptions& options, std::unique_ptr<Display>& out,
                      ErrorLine& out_error) {
+  if (try_drm(options, out, out_error).ok()) return {};
   if (try_window(options, out, out_error).ok()) return {};
   return open_surfaceless(options, out, out_error);
 }
@@ -80,7 +93,7 @@ Status open_display(const DisplayOptions& options, std::unique_ptr<Display>& out
     case DisplayKind::drm:
       break;
   }
-  return not_built("this build has no drm display; use --display window or surfaceless", out_error);
+  return try_drm(options, out, out_error);
 }
 
 }  // namespace caryatid::platform

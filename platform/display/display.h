@@ -18,6 +18,8 @@ struct DisplayOptions {
   DisplayKind kind = DisplayKind::automatic;
   std::uint32_t width = 800, height = 480;  // Wish; 16..4096. A screen may have its own mind.
   std::uint8_t samples = 4;                 // Wish for multisampling of the surface; 0 none.
+  // drm: the size was asked for; else the mode that the screen prefers counts.
+  bool insists_on_size = false;
   const char* title = "Caryatid";
 };
 
@@ -32,6 +34,10 @@ enum class DisplayFault : std::uint16_t {
   not_built,  // This build lacks the backend.
   bad_size,
   context_lost,  // GPU reset or device gone: open display and renderer again.
+  no_card,       // drm: no graphics card with connectors, or it may not be opened, or is gone.
+  no_screen,     // drm: none is connected, or it refuses what it is given.
+  not_master,    // drm: another program owns the screen.
+  flip_lost,     // drm: the driver loses page flips: open display and renderer again.
 };
 
 // What the world outside did since the last poll.
@@ -39,6 +45,14 @@ struct DisplayEvents {
   ButtonEvents buttons;  // Keys 1..9 of a window as buttons 1..9.
   bool close_requested = false;
   bool resized = false;  // width() and height() are new; tell the renderer.
+};
+
+// The last picture that came on the screen.
+struct Flip {
+  std::uint64_t count = 0;      // Of all flips since the display was opened.
+  std::int64_t time_us = 0;     // Monotonic, by the screen's own time stamp.
+  std::uint16_t vblanks = 0;    // Refresh periods since the flip before; 0: unknown.
+  std::uint32_t waited_us = 0;  // How long present() waited for it, with nothing to do.
 };
 
 using GlProc = void (*)();
@@ -56,10 +70,16 @@ class Display {
   // Collects events without blocking.
   virtual Status poll(std::int64_t now_us, DisplayEvents& out) = 0;
   // Shows what was drawn; on a screen waits for the next refresh where the driver does.
-  // device_lost (context_lost): everything on the GPU is gone.
+  // device_lost (context_lost, flip_lost): everything on the GPU is gone.
   virtual Status present() = 0;
-  // Refresh periods between the last two flips by the screen's own count; 0: it can't tell.
-  virtual std::uint16_t vblanks() const { return 0; }
+  // count stays 0 where the display can't tell.
+  virtual Flip last_flip() const { return {}; }
+  // Time between two refreshes of the screen; 0: the display can't tell.
+  virtual std::int64_t refresh_us() const { return 0; }
+  // False: nobody can see a picture now (no screen, screen off): drawing is wasted.
+  virtual bool visible() const { return true; }
+  // Screen off and on again, where the display can.
+  virtual void set_power(bool /*on*/) {}
 };
 
 // Opens the display asked for; `window` is Wayland where WAYLAND_DISPLAY is set, else or when that

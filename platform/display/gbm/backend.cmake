@@ -1,0 +1,11 @@
+# The screen of a board by DRM/KMS, where libdrm and GBM are there.
+pkg_check_modules(DRM IMPORTED_TARGET libdrm)
+pkg_check_modules(GBM IMPORTED_TARGET gbm)
+if(NOT (DRM_FOUND AND GBM_FOUND))
+  message(STATUS "display: no DRM screen (libdrm-dev or libgbm-dev is missing)")
+  return()
+endif()
+file(GLOB gbm_sources CONFIGURE_DEPENDS platform/display/gbm/*.cpp)
+list(APPEND display_sources ${gbm_sources})
+list(APPEND display_definitions CARYATID_DISPLAY_GBM=1)
+list(APPEND display_libraries PkgConfig::DRM PkgConfig::GBM)
