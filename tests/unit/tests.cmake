@@ -26,6 +26,17 @@ if(HIDAPI_FOUND)
     GTest::gtest_main)
   add_test(NAME unit_platform_buttons_hid COMMAND unit_platform_buttons_hid)
 endif()
+# The screen without a card: the real DRM code linked with a fake of libdrm.
+if(DRM_FOUND)
+  set(gbm_tests ${CMAKE_CURRENT_LIST_DIR}/platform/gbm)
+  set(gbm_room ${CMAKE_SOURCE_DIR}/platform/display/gbm)
+  add_executable(unit_platform_gbm ${gbm_tests}/gbm_test.cpp ${gbm_tests}/fake_drm.cpp
+    ${gbm_room}/card.cpp ${gbm_room}/mode.cpp ${gbm_room}/output.cpp ${gbm_room}/scanout.cpp
+    ${gbm_room}/watch.cpp)
+  target_include_directories(unit_platform_gbm SYSTEM PRIVATE ${DRM_INCLUDE_DIRS})
+  target_link_libraries(unit_platform_gbm PRIVATE caryatid_base caryatid_flags GTest::gtest_main)
+  add_test(NAME unit_platform_gbm COMMAND unit_platform_gbm)
+endif()
 add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/config_test.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/config.cpp ${CMAKE_SOURCE_DIR}/firmware-app/config_devices.cpp)
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
