@@ -14,6 +14,7 @@
 #include "core/scene/compose.h"
 #include "firmware-app/allocations.h"
 #include "firmware-app/levels.h"
+#include "firmware-app/splash.h"
 #include "platform/buttons/scripted/scripted.h"
 #include "platform/clock/clock.h"
 
@@ -125,15 +126,9 @@ bool Kiosk::open_person() {
   return false;
 }
 
-bool Kiosk::open_screen() {
+bool Kiosk::open_display() {
+  if (options_.display == "none") return true;
   platform::ErrorLine error;
-  platform::RenderOptions render;
-  render.width = options_.width;
-  render.height = options_.height;
-  render.offscreen = true;
-  render.scalable = true;
-  if (options_.display == "none")
-    return platform::open_null_renderer(person_.view(), render, renderer_).ok();
   platform::DisplayOptions d;
   d.width = options_.width;
   d.height = options_.height;
@@ -141,18 +136,15 @@ bool Kiosk::open_screen() {
   if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
   if (options_.display == "window") d.kind = platform::DisplayKind::window;
   if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
-  if (!platform::open_display(d, display_, error).ok()) {
-    complain(error.c_str());
-    return false;
-  }
-  // The context's function look-up has no place for a receiver; there is one display.
-  static platform::Display* display;
-  display = display_.get();
-  render.width = display_->width();
-  render.height = display_->height();
-  render.offscreen = !display_->has_surface();
-  render.proc_address = [](const char* name) { return display->proc_address(name); };
-  if (platform::open_gles_renderer(person_.view(), !loader_.complete(), render, renderer_, error)
+  if (platform::open_display(d, display_, error).ok()) return true;
+  complain(error.c_str());
+  return false;
+}
+
+bool Kiosk::open_renderer() {
+  platform::ErrorLine error;
+  if (app::open_renderer(display_.get(), person_.view(), !loader_.complete(), options_.width,
+                         options_.height, renderer_, error)
           .ok())
     return true;
   complain(error.c_str());
@@ -166,7 +158,7 @@ bool Kiosk::reopen_screen() {
   std::fputs("caryatid: the screen or the GPU was lost; opening it again\n", stderr);
   renderer_.reset();  // Its objects live in the display's context.
   display_.reset();
-  if (++reopened_ > kOften || !open_screen()) return false;
+  if (++reopened_ > kOften || !open_display() || !open_renderer()) return false;
   for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
     if (texture_whole_[t]) (void)renderer_->upload_texture(static_cast<std::uint16_t>(t), true);
   return true;
@@ -201,12 +193,16 @@ bool Kiosk::start() {
     complain(error);
     return false;
   }
+  if (!open_display()) return false;
+  // Reading a pack takes a second or two on a board; a replay shows its own frames alone.
+  if (display_ && !options_.pack.empty() && !options_.virtual_clock)
+    (void)show_builtin_face(*display_, options_.rotate_degrees);
   if (!open_person()) return false;
   if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) {
     complain(error);
     return false;
   }
-  if (!open_screen() || !open_outputs()) return false;
+  if (!open_renderer() || !open_outputs()) return false;
   // A recorded run must not depend on what is wired to this machine.
   if (!options_.virtual_clock) {
     if (!panel_.open(config_, &error)) {

@@ -69,7 +69,8 @@ class Kiosk {
   bool read_config();
   bool open_person();
   bool load_base(std::string* out_error);
-  bool open_screen();
+  bool open_display();
+  bool open_renderer();
   bool reopen_screen();
   bool open_outputs();
   void open_speaker();
