@@ -338,14 +338,14 @@ void Kiosk::poll_buttons(const Tick& tick) {
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
   const std::int64_t began_us = tick.start_us - now_us;
   panel_.poll(platform::monotonic_us(), events_);
-  note_press(events_, 0);
   platform::ButtonEvents others;
   if (script_) (void)script_->poll(now_us, others);
   note_press(others, began_us);
-  for (const ButtonEvent& e : others) (void)events_.push(e);
   service_.control().poll(this, [](void* self, std::span<const char> line, auto& reply) {
     static_cast<Kiosk*>(self)->obey({line.data(), line.size()}, reply);
   });
+  note_press(events_, 0);
+  for (const ButtonEvent& e : others) (void)events_.push(e);
   if (!display_) return;
   platform::DisplayEvents from_display;
   if (!display_->poll(now_us, from_display).ok()) return;

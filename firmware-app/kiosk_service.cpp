@@ -90,7 +90,7 @@ bool Kiosk::list_hardware(const Options& options) {
   platform::list_hardware(stdout);
   Kiosk kiosk(options);
   kiosk.options_.pack.clear();
-  if (!kiosk.open_person() || !kiosk.open_screen()) return false;
+  if (!kiosk.open_person() || !kiosk.open_display() || !kiosk.open_renderer()) return false;
   const platform::GpuCaps& caps = kiosk.renderer_->caps();
   std::printf("GPU by display %s\n  %s, %s%s\n", kiosk.display_ ? kiosk.display_->name() : "none",
               caps.renderer.c_str(), caps.version.c_str(),
