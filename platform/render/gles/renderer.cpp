@@ -170,6 +170,11 @@ void GlesRenderer::draw_background(const scene::DrawList& list) {
   glUseProgram(program);
   glUniform3f(glGetUniformLocation(program, "u_top"), top.x, top.y, top.z);
   glUniform3f(glGetUniformLocation(program, "u_bottom"), bottom.x, bottom.y, bottom.z);
+  const auto axis = [&](int row) {
+    const float v = list.camera.projection[0][row];
+    return v > 0.0f ? 1.0f : (v < 0.0f ? -1.0f : 0.0f);
+  };
+  glUniform2f(glGetUniformLocation(program, "u_right"), axis(0), axis(1));
   glDisable(GL_CULL_FACE);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -255,9 +255,11 @@ void main() { gl_FragColor = texture2D(u_texture, v_uv); }
 // A vertical gradient at the far plane; a little noise hides its 8-bit steps.
 inline constexpr char kBackgroundVertex[] = R"(
 attribute vec2 a_position;
+uniform vec2 u_right;  // The picture's, on a panel that may be mounted turned.
 varying vec2 v_uv;
 void main() {
-  v_uv = a_position;
+  vec2 at = a_position - 0.5;
+  v_uv = vec2(dot(u_right, at), dot(vec2(-u_right.y, u_right.x), at)) + 0.5;
   gl_Position = vec4(a_position * 2.0 - 1.0, 1.0, 1.0);
 }
 )";

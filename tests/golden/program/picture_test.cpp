@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/emotion/profiles.h"
+#include "tests/golden/program/pixels.h"
 #include "tests/golden/program/program.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -21,12 +22,6 @@
 #pragma GCC diagnostic pop
 
 namespace caryatid::golden {
-namespace {
-
-struct Pixels {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-};
 
 Pixels read_png(const std::filesystem::path& file) {
   Pixels p;
@@ -37,6 +32,8 @@ Pixels read_png(const std::filesystem::path& file) {
   stbi_image_free(data);
   return p;
 }
+
+namespace {
 
 class Picture : public testing::TestWithParam<const char*> {};
 
