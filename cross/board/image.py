@@ -24,10 +24,10 @@ mount -t devtmpfs dev /dev
 mount -t proc proc /proc
 mount -t sysfs sys /sys
 for module in $(cat /modules/order); do insmod /modules/$module; done
-mount -t ext4 /dev/vda /root || exec sh
+mount -t ext4 /dev/vda /disk || exec sh
 umount /sys /proc
-mount --move /dev /root/dev
-exec switch_root /root $(cat /init.next)
+mount --move /dev /disk/dev
+exec switch_root /disk $(cat /init.next)
 """
 
 SHELL_UNIT = """[Unit]
@@ -46,7 +46,7 @@ Restart=always
 FILES = {
     "etc/hostname": "board\n",
     "etc/machine-id": "00000000000000000000000000000001\n",
-    "etc/passwd": "root:x:0:0:root:/root:/bin/sh\n",
+    "etc/passwd": "root:x:0:0:root:/:/bin/sh\n",
     "etc/group": "root:x:0:\n",
     "etc/fstab": "",
     "etc/modules-load.d/board.conf": "\n".join(m.replace("-", "_") for m in MODULES) + "\n",
@@ -110,7 +110,7 @@ def make_initramfs(root, out, next_init):
     """A busybox that loads the disk's driver and hands over to `next_init` on the disk."""
     scratch = out + ".tree"
     shutil.rmtree(scratch, ignore_errors=True)
-    for folder in ("bin", "dev", "proc", "sys", "root", "modules"):
+    for folder in ("bin", "dev", "proc", "sys", "disk", "modules"):
         os.makedirs(os.path.join(scratch, folder))
     shutil.copy(os.path.join(root, "bin/busybox"), os.path.join(scratch, "bin/busybox"))
     order = []
