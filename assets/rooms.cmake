@@ -4,7 +4,7 @@ find_package(Eigen3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 add_library(caryatid_host_libraries INTERFACE)
 target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
-  $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES> /usr/include/stb)
+  $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES> ${CMAKE_SYSROOT}/usr/include/stb)
 # Rooms inside bake: human (import of the base human), simplify, face (FAT), body, texture, pack.
 file(GLOB_RECURSE bake_sources CONFIGURE_DEPENDS assets/bake/*.cpp)
 file(GLOB_RECURSE tool_sources CONFIGURE_DEPENDS assets/tool/*.cpp)

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 
 usage() {
   cat <<'TEXT'
-usage: cross/board.sh build [arm64|armhf] [bookworm|trixie]   cross-compile the agent
+usage: cross/board.sh build [arm64|armhf] [bookworm|trixie] [CMAKE-ARGS]   cross-compile the agent
        cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   and run the board code's tests
 
 Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
@@ -22,7 +22,8 @@ packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-ce
 # For the board: what caryatid and its tests link to.
 libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libwayland-dev
   wayland-protocols libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev
-  libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev)
+  libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev
+  libeigen3-dev libcli11-dev)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }
@@ -71,7 +72,8 @@ build() {
   install_packages
   make_sysroot
   say "building for $arch, Debian $release"
-  cmake --preset "$preset" -B "$folder" -DCARYATID_SYSROOT="$sysroot" >"$folder.log" 2>&1 ||
+  cmake --preset "$preset" -B "$folder" -DCARYATID_SYSROOT="$sysroot" "${@:4}" \
+    >"$folder.log" 2>&1 ||
     { tail -n 40 "$folder.log" >&2; fail "configuring failed"; }
   ninja -C "$folder" --quiet || fail "building failed"
   say "built $folder/bin/caryatid"
@@ -120,7 +122,7 @@ folder="build/cross-$arch-$release"
 mkdir -p build
 
 case "${1:-}" in
-  build) build ;;
+  build) build "$@" ;;
   unit)
     build
     compare_hashes

@@ -10,6 +10,7 @@
 #include "assets/bake/gait/measure.h"
 #include "assets/bake/gait/settled_walk.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/gait_style_named.h"
 #include "assets/tool/text_file.h"
 #include "core/stream/bap_text.h"
 
@@ -26,18 +27,6 @@ struct AnalyseArgs {
   std::string in, report, plot;
   bool plain_axes = false;
 };
-
-body::GaitStyle style_named(const std::string& name) {
-  for (int m = 0; m < body::kGaitMoodCount; ++m)
-    if (name == body::gait_mood_name(body::GaitMood(m))) return body::gait_style(body::GaitMood(m));
-  float activation = 0.0f, evaluation = 0.0f;
-  char rest = 0;
-  if (std::sscanf(name.c_str(), "%f,%f%c", &activation, &evaluation, &rest) == 2)
-    return body::gait_style_at(activation, evaluation);
-  throw std::runtime_error("--mood:1: no mood '" + name +
-                           "'; normal bored happy sad angry hurried tired proud, or "
-                           "ACTIVATION,EVALUATION from -1 to 1");
-}
 
 // Steady walking along +Z from a heel strike of the right foot, at the origin.
 std::vector<body::BapFrame> walk(const body::GaitStyle& style, bool linear, int count, float fps) {

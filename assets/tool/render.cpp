@@ -4,7 +4,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "assets/bake/gait/settled_walk.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/gait_style_named.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/profiles.h"
 #include "core/face/fap_fill.h"
@@ -16,8 +18,9 @@ namespace caryatid::tool {
 namespace {
 
 struct RenderArgs {
-  std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", lod, out;
+  std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", lod, mood, out;
   int viseme = -1;
+  float phase = 0.0f;
 };
 
 // "FILE@7" is frame 7 of FILE; without it the first.
@@ -52,6 +55,15 @@ void set_faps(const std::string& text, face::FapFrame* out) {
   }
 }
 
+// The walk's pose at a share of the cycle of the left leg, on the spot.
+body::BapFrame walking(const body::Skeleton& skeleton, const std::string& mood, float phase) {
+  bake::SettledWalk walk(skeleton, style_named(mood));
+  body::BapFrame frame = walk.to_phase(phase);
+  frame.set(182, 0.0f);
+  frame.set(183, 0.0f);
+  return frame;
+}
+
 void render(const RenderArgs& a) {
   unsigned w = 0, h = 0;
   if (std::sscanf(a.size.c_str(), "%ux%u", &w, &h) != 2 || w < 16 || h < 16 || w > 2048 || h > 2048)
@@ -71,6 +83,7 @@ void render(const RenderArgs& a) {
   set_faps(a.set, &pose.faps);
   if (!a.bap.empty()) pose.baps = frame_of<stream::BapTextReader, body::BapFrame>(a.bap);
   Studio studio(a.pack, w, h);
+  if (!a.mood.empty()) pose.baps = walking(studio.person().skeleton(), a.mood, a.phase);
   write_png(studio.picture(pose), a.out);
 }
 
@@ -85,6 +98,10 @@ void add_render(CLI::App& app) {
   cmd->add_option("--set", a->set, "FAP=VALUE,... in the FAP's own unit");
   cmd->add_option("--viseme", a->viseme, "0..14")->check(CLI::Range(0, 14));
   cmd->add_option("--bap", a->bap, "FILE or FILE@FRAME of a .bap text");
+  cmd->add_option("--mood", a->mood,
+                  "Walking: normal bored happy sad angry hurried tired proud run");
+  cmd->add_option("--phase", a->phase, "Of the left leg's walking cycle, 0..1")
+      ->check(CLI::Range(0.0f, 1.0f));
   cmd->add_option("--view", a->view, "front left right three-quarter bust body feet");
   cmd->add_option("--lod", a->lod, "Triangles: N of the whole person, or head=N (default all)");
   cmd->add_option("--size", a->size, "WIDTHxHEIGHT (default 800x800)");

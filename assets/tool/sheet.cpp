@@ -10,6 +10,7 @@
 #include "assets/bake/simplify/history.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_sheet.h"
+#include "assets/tool/gait_style_named.h"
 #include "assets/tool/raster.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
@@ -148,12 +149,6 @@ void shuffle(unsigned seed, Cells* cells) {
     out.captions.push_back(std::to_string(i + 1));
   }
   *cells = out;
-}
-
-body::GaitStyle style_named(const std::string& mood) {
-  for (int m = 0; m < body::kGaitMoodCount; ++m)
-    if (mood == body::gait_mood_name(body::GaitMood(m))) return body::gait_style(body::GaitMood(m));
-  return body::running_style();
 }
 
 void sheet(const SheetArgs& a) {

@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Debian packages for boards: caryatid, caryatid-data, caryatid-tools.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usage() {
+  cat <<'TEXT'
+usage: cross/package.sh [arm64|armhf] [bookworm|trixie]   packages in build/packages/RELEASE/
+
+Default: arm64 bookworm. Cross-compiles (cross/board.sh), bakes the characters (cross/host.sh) and
+checks what came out with lintian.
+
+example: cross/package.sh armhf && scp build/packages/bookworm/*.deb kiosk.local:
+TEXT
+}
+
+say() { printf '%s\n' "caryatid: $*"; }
+fail() {
+  printf '%s\n' "caryatid: $*" >&2
+  exit 1
+}
+
+# The package of a library, by its name in the program. A new library is a failure here, not at the
+# deployer's.
+package_of() {
+  case "$1" in
+    libc.so.6 | libm.so.6 | ld-linux-*) ;;  # By version, below.
+    libstdc++.so.6) echo "libstdc++6 (>= 12)" ;;
+    libgcc_s.so.1) echo "libgcc-s1 (>= 3.0)" ;;
+    libEGL.so.1) echo libegl1 ;;
+    libGLESv2.so.2) echo libgles2 ;;
+    libX11.so.6) echo libx11-6 ;;
+    libwayland-client.so.0) echo "libwayland-client0 (>= 1.20.0)" ;;
+    libwayland-egl.so.1) echo libwayland-egl1 ;;
+    libgpiod.so.2) echo "libgpiod2 (>= 1.5.2)" ;;
+    libgpiod.so.3) echo "libgpiod3 (>= 2.1)" ;;
+    libhidapi-hidraw.so.0) echo libhidapi-hidraw0 ;;
+    libgbm.so.1) echo "libgbm1 (>= 17.1.0)" ;;
+    libdrm.so.2) echo "libdrm2 (>= 2.4.100)" ;;
+    libasound.so.2) [ "$release" = bookworm ] && echo "libasound2 (>= 1.1)" || echo libasound2t64 ;;
+    libespeak-ng.so.1) echo libespeak-ng1 ;;
+    libpng16.so.16) [ "$release" = bookworm ] && echo libpng16-16 || echo libpng16-16t64 ;;
+    libfreetype.so.6) echo libfreetype6 ;;
+    libharfbuzz.so.0) echo libharfbuzz0b ;;
+    libunibreak.so.5) echo libunibreak5 ;;
+    libunibreak.so.6) echo libunibreak6 ;;
+    *) fail "no Debian package is known for $1; add it to cross/package.sh" ;;
+  esac
+}
+
+# depends_of PROGRAM: what stands behind Depends:.
+depends_of() {
+  local name glibc list
+  glibc=$(readelf -V "$1" | grep -oE 'GLIBC_2\.[0-9]+' | sort -Vu | tail -1)
+  list="libc6 (>= ${glibc#GLIBC_})"
+  for name in $(readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p'); do
+    name=$(package_of "$name") || exit 1
+    [ -z "$name" ] || list="$list, $name"
+  done
+  echo "$list"
+}
+
+# manual NAME SUMMARY PROGRAM: its --help as a manual page.
+manual() {
+  {
+    printf '.TH %s 1 "" "Caryatid" "User Commands"\n.SH NAME\n%s \\- %s\n' "${1^^}" "$1" "$2"
+    printf '.SH DESCRIPTION\n.nf\n'
+    "$3" --help | sed -e 's/\\/\\\\/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"
+    printf '.fi\n'
+  } | gzip -9n >"$manuals/$1.1.gz"
+}
+
+make_manuals() {
+  manuals=$PWD/build/packages/manuals
+  mkdir -p "$manuals"
+  manual caryatid "information-kiosk agent" build/host-release/bin/caryatid
+  manual caryatid-tool "content tools of the kiosk agent" build/host-release/bin/caryatid-tool
+  gzip -9n >"$manuals/changelog.gz" <<TEXT
+caryatid ($(sed -n 's/^project(caryatid VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)) stable; urgency=medium
+
+  * Built from $(git rev-parse --short=12 HEAD 2>/dev/null || echo "an unpacked tree").
+
+ -- Caryatid <caryatid@example.org>  $(date -R -d "@$(git log -1 --format=%ct 2>/dev/null || echo 0)")
+TEXT
+}
+
+check_packages() {
+  command -v lintian >/dev/null || fail "lintian is missing; apt-get install lintian"
+  lintian --fail-on error,warning --no-tag-display-limit "$@" || fail "lintian refuses the packages"
+}
+
+main() {
+  ./cross/host.sh build
+  ./cross/board.sh build "$arch" "$release" -DCARYATID_HOST_TOOLS=ON
+  make_manuals
+  local folder=build/cross-$arch-$release out=build/packages/$release
+  cmake -B "$folder" -DCARYATID_PACKS="$PWD/build/host-release/packs" \
+    -DCARYATID_MANUALS="$manuals" -DCARYATID_DEBIAN_ARCHITECTURE="$arch" \
+    -DCARYATID_DEPENDS="$(depends_of "$folder/bin/caryatid")" \
+    -DCARYATID_TOOL_DEPENDS="$(depends_of "$folder/bin/caryatid-tool")" >"$folder.log" 2>&1 ||
+    fail "configuring failed; $folder.log says why"
+  mkdir -p "$out"
+  rm -f "$out"/*_"$arch".deb
+  cpack --config "$folder/CPackConfig.cmake" -B "$out" >"$folder.cpack.log" 2>&1 ||
+    { tail -n 20 "$folder.cpack.log" >&2; fail "packing failed"; }
+  rm -rf "$out/_CPack_Packages"
+  check_packages "$out"/caryatid_*_"$arch".deb "$out"/caryatid-tools_*_"$arch".deb \
+    "$out"/caryatid-data_*_all.deb
+  ls -l "$out"/*.deb | awk '{printf "caryatid: %8.1f KiB  %s\n", $5 / 1024, $9}'
+}
+
+arch=${1:-arm64}
+release=${2:-bookworm}
+case "$arch $release" in
+  "arm64 bookworm" | "arm64 trixie" | "armhf bookworm" | "armhf trixie") main ;;
+  *)
+    usage
+    case "$arch" in -h | --help | help) exit 0 ;; esac
+    exit 2
+    ;;
+esac
