@@ -71,16 +71,19 @@ manual() {
 }
 
 make_manuals() {
+  local version when
   manuals=$PWD/build/packages/manuals
   mkdir -p "$manuals"
   manual caryatid "information-kiosk agent" build/host-release/bin/caryatid
   manual caryatid-tool "content tools of the kiosk agent" build/host-release/bin/caryatid-tool
+  version=$(sed -n 's/^project(caryatid VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+  when=$(git log -1 --format=%ct 2>/dev/null || echo 0)
   gzip -9n >"$manuals/changelog.gz" <<TEXT
-caryatid ($(sed -n 's/^project(caryatid VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)) stable; urgency=medium
+caryatid ($version) stable; urgency=medium
 
   * Built from $(git rev-parse --short=12 HEAD 2>/dev/null || echo "an unpacked tree").
 
- -- Caryatid <caryatid@example.org>  $(date -R -d "@$(git log -1 --format=%ct 2>/dev/null || echo 0)")
+ -- Caryatid <caryatid@example.org>  $(date -R -d "@$when")
 TEXT
 }
 

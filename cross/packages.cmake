@@ -67,7 +67,8 @@ endforeach()
 set(CPACK_DEBIAN_CARYATID_PACKAGE_DEPENDS "${CARYATID_DEPENDS}")
 set(CPACK_DEBIAN_CARYATID_PACKAGE_RECOMMENDS "caryatid-data, libgl1-mesa-dri, espeak-ng-data")
 set(CPACK_DEBIAN_CARYATID_PACKAGE_CONTROL_EXTRA
-  "${CMAKE_SOURCE_DIR}/cross/debian/postinst;${CMAKE_SOURCE_DIR}/cross/debian/postrm;${CMAKE_BINARY_DIR}/debian/conffiles")
+  ${CMAKE_SOURCE_DIR}/cross/debian/postinst ${CMAKE_SOURCE_DIR}/cross/debian/postrm
+  ${CMAKE_BINARY_DIR}/debian/conffiles)
 set(CPACK_COMPONENT_CARYATID_DESCRIPTION
   "information-kiosk agent: a button is pressed, a person answers
  A 3-D person on the screen of a small ARM board, driven by MPEG-4 face and
