@@ -11,6 +11,7 @@
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_sheet.h"
 #include "assets/tool/gait_style_named.h"
+#include "assets/tool/gesture_sheet.h"
 #include "assets/tool/raster.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
@@ -175,6 +176,10 @@ void sheet(const SheetArgs& a) {
       cells = {std::move(gait.pictures), std::move(gait.captions)};
     }
   }
+  if (a.what == "gestures") {
+    GaitCells gestures = gesture_poses(&studio);
+    cells = {std::move(gestures.pictures), std::move(gestures.captions)};
+  }
   if (a.what == "lods") cells = lods(&studio, a.cell);
   if (a.shuffle >= 0) shuffle(static_cast<unsigned>(a.shuffle), &cells);
   write_png(grid(cells.pictures, cells.captions, columns), a.out);
@@ -185,9 +190,9 @@ void sheet(const SheetArgs& a) {
 void add_sheet(CLI::App& app) {
   auto a = std::make_shared<SheetArgs>();
   CLI::App* cmd = app.add_subcommand("sheet", "A contact sheet with captions");
-  cmd->add_option("what", a->what, "emotions visemes faps lods gait")
+  cmd->add_option("what", a->what, "emotions visemes faps lods gait gestures")
       ->required()
-      ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods", "gait"}));
+      ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods", "gait", "gestures"}));
   CLI::Option* pack = cmd->add_option("--pack", a->pack, "The character");
   CLI::Option* mesh = cmd->add_option("--mesh", a->mesh, "lods: any .obj, .off or .ply instead");
   mesh->excludes(pack);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/body/helper_joints.h"
 #include "core/face/deform.h"
 
 namespace caryatid::agent {
@@ -52,8 +53,8 @@ Status Person::start(const pack::View& view, Arena& arena) {
     return {Code::out_of_capacity, 0};
   skeleton_ = body::upright_skeleton();
   for (const pack::Joint& j : view.joints) {
-    if (j.hanim >= body::kHanimJointCount) return {Code::corrupt_data, 0};
-    skeleton_.center_m[j.hanim] = to_vec(j.center_m);
+    if (j.hanim >= body::kSkinJointCount) return {Code::corrupt_data, 0};
+    if (j.hanim < body::kHanimJointCount) skeleton_.center_m[j.hanim] = to_vec(j.center_m);
   }
   body::derive_soles(skeleton_);
   for (std::size_t side = 0; side < 2; ++side) {
@@ -152,13 +153,13 @@ void Person::pose(const face::FapFrame& faps, const body::BapFrame& baps, const 
   extra[index_of(HanimJoint::l_eyeball_joint)] = turns.left_eye;
   extra[index_of(HanimJoint::r_eyeball_joint)] = turns.right_eye;
   extra[index_of(HanimJoint::temporomandibular)] = turns.jaw;
-  std::array<Affine, body::kHanimJointCount> posed;
+  std::array<Affine, body::kSkinJointCount> posed;
   body::PoseJob job;
   job.skeleton = &skeleton_;
   job.baps = &baps;
   job.extra = extra;
   job.out = posed;
-  if (!job.run().ok()) return;
+  if (!job.run().ok() || !body::pose_helpers(skeleton_, posed).ok()) return;
   const auto shift = [&posed](HanimJoint joint, Vec3 by) {
     Affine move;
     for (int r = 0; r < 3; ++r) move.row[r].w = by[r];

@@ -84,8 +84,8 @@ ArmWish beat_wish(float side, float reach_m, float t, float size) {
 
 ArmWish shrug_wish(float side, float reach_m, float size) {
   ArmWish w;
-  w.wrist_m = reach_m * Vec3{side * (0.36f + 0.10f * size), -0.56f, 0.46f};
-  w.elbow_side = {side * 0.35f, -0.6f, -1.0f};
+  w.wrist_m = reach_m * Vec3{side * (0.32f + 0.12f * size), -0.42f, 0.42f};
+  w.elbow_side = {side * -0.1f, -1.0f, -0.5f};
   w.palm = {side * 0.15f, 1.0f, 0.5f};
   w.finger_rad = w.index_rad = 0.12f;
   return w;

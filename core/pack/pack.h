@@ -96,7 +96,7 @@ inline constexpr std::uint16_t kNoJoint = 0xFFFF;
 struct Joint {
   float center_m[3];     // Rest position.
   std::uint16_t parent;  // Index into joints, less than the own; kNoJoint for the root.
-  std::uint16_t hanim;   // body::HanimJoint that this is (face joints included).
+  std::uint16_t hanim;   // body::HanimJoint, or from kHanimJointCount on body::HelperJoint.
 };
 
 enum class MaterialKind : std::uint16_t { skin, eye, hair, cloth, mouth, lash };

@@ -8,6 +8,7 @@ void add_sole_points(Character& character) {
   body::Skeleton skeleton = body::upright_skeleton();
   std::array<std::uint32_t, body::kHanimJointCount> joint_of{};
   for (std::size_t j = 0; j < character.joints.size(); ++j) {
+    if (character.joints[j].hanim >= body::kHanimJointCount) continue;  // Helpers of the skin.
     skeleton.center_m[character.joints[j].hanim] = character.joints[j].center_m;
     joint_of[character.joints[j].hanim] = static_cast<std::uint32_t>(j);
   }

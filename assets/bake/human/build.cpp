@@ -269,8 +269,26 @@ class Builder {
       add_object(kind, role, m, std::move(tongue));
       return;
     }
-    add_object(kind == "clothes" ? name.substr(name.find('/') + 1) : kind, role, m,
-               make_mesh(source, [](const Quad&) { return true; }));
+    if (kind == "clothes") return add_garment(name.substr(name.find('/') + 1), m, source);
+    add_object(kind, role, m, make_mesh(source, [](const Quad&) { return true; }));
+  }
+
+  // A suit moves with more joints than a draw holds: jacket and trousers become two objects.
+  void add_garment(const std::string& name, std::uint32_t material, const MeshSource& source) {
+    Mesh whole = make_mesh(source, [](const Quad&) { return true; });
+    std::set<std::uint16_t> joints;
+    for (const Influence& influence : whole.influence)
+      for (std::size_t k = 0; k < 4; ++k)
+        if (influence.weight[k] > 0) joints.insert(influence.joint[k]);
+    if (joints.size() <= kMaxBonesPerDraw)
+      return add_object(name, pack::ObjectRole::clothes, material, std::move(whole));
+    const auto piece = connected_pieces(source.quads, source.position_m.size());
+    std::set<std::uint32_t> pieces;
+    for (const Quad& quad : source.quads) pieces.insert(piece[quad.vertex[0]]);
+    std::size_t number = 0;
+    for (const std::uint32_t p : pieces)
+      add_object(name + "_" + std::to_string(++number), pack::ObjectRole::clothes, material,
+                 make_mesh(source, [&](const Quad& q) { return piece[q.vertex[0]] == p; }));
   }
 
   void add_object(std::string name, pack::ObjectRole role, std::uint32_t material, Mesh mesh) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace caryatid::bake {
 namespace {
@@ -79,6 +80,22 @@ std::vector<std::uint32_t> slot_of_base(const Mesh& mesh, std::size_t base_count
   for (std::size_t i = mesh.base_vertex.size(); i-- > 0;)
     if (mesh.base_vertex[i] != kNone) out[mesh.base_vertex[i]] = static_cast<std::uint32_t>(i);
   return out;
+}
+
+std::vector<std::uint32_t> connected_pieces(std::span<const Quad> quads, std::size_t vertex_count) {
+  std::vector<std::uint32_t> least(vertex_count);
+  std::iota(least.begin(), least.end(), 0u);
+  const auto find = [&](std::uint32_t v) {
+    while (least[v] != v) v = least[v] = least[least[v]];
+    return v;
+  };
+  for (const Quad& quad : quads)
+    for (const std::uint32_t v : quad.vertex) {
+      const std::uint32_t a = find(v), b = find(quad.vertex[0]);
+      least[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::uint32_t v = 0; v < least.size(); ++v) least[v] = find(v);
+  return least;
 }
 
 std::vector<std::vector<std::uint32_t>> edge_neighbours(std::span<const Quad> quads,

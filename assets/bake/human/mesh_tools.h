@@ -33,6 +33,9 @@ std::vector<std::uint32_t> slot_of_base(const Mesh& mesh, std::size_t base_count
 // For every vertex the number of the connected piece that it belongs to; pieces count from 0.
 std::vector<std::uint32_t> pieces_of(std::span<const Quad> quads, std::size_t vertex_count);
 
+// For every vertex the least number of a vertex that quads connect it with.
+std::vector<std::uint32_t> connected_pieces(std::span<const Quad> quads, std::size_t vertex_count);
+
 // Neighbours of every vertex along quad edges.
 std::vector<std::vector<std::uint32_t>> edge_neighbours(std::span<const Quad> quads,
                                                         std::size_t vertex_count);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +10,7 @@ namespace caryatid::bake {
 namespace {
 
 using body::HanimJoint;
+using body::HelperJoint;
 
 std::uint16_t number(HanimJoint joint) { return static_cast<std::uint16_t>(joint); }
 // The joint of the other side follows its left twin in the enumeration.
@@ -132,6 +133,11 @@ std::vector<Joint> hanim_joints(const BaseHuman& base, std::span<const Vec3> bon
   lay_vertebrae(joints, HanimJoint::vc7, HanimJoint::vc1, HanimJoint::skullbase, neck);
   center(HanimJoint::skullbase) = head("head");
   center(HanimJoint::temporomandibular) = head("jaw");
+  for (std::size_t h = 0; h < body::kHelperJointCount; ++h) {
+    const HanimJoint owner = body::helper_owner(static_cast<HelperJoint>(h));
+    joints.push_back(
+        {static_cast<std::uint16_t>(body::kHanimJointCount + h), number(owner), center(owner)});
+  }
   return joints;
 }
 
@@ -163,8 +169,61 @@ WeightMap::Rule WeightMap::rule_of(const std::string& bone) const {
   return {Kind::joint, number(HanimJoint::skullbase)};  // The face moves by the FAT.
 }
 
+// How far along the limb a point lies, 0..1.
+float WeightMap::share_along(HanimJoint from, HanimJoint to, Vec3 p) const {
+  const Vec3 a = joints_[number(from)].center_m, d = joints_[number(to)].center_m - a;
+  return std::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.0f, 1.0f);
+}
+
+// Twists wind up along the arm, and elbow and knee bend in two halves.
+void WeightMap::spread_over_helpers(Shares& sum, Vec3 p, bool right) const {
+  const auto helper = [&](HelperJoint left) {
+    return static_cast<std::uint16_t>(body::index_of(left) + (right ? 1 : 0));
+  };
+  const auto take = [&](std::uint16_t joint) {
+    const auto found = sum.find(joint);
+    if (found == sum.end()) return 0.0f;
+    const float w = found->second;
+    sum.erase(found);
+    return w;
+  };
+  const auto give = [&](std::uint16_t joint, float w) {
+    if (w > 0) sum[joint] += w;
+  };
+  // Of what two neighbours share, the half joint gets what keeps the mean of the bend.
+  const auto hinge = [&](float& above, float& below, std::uint16_t half) {
+    const float middle = 2.0f * std::min(above, below);
+    above -= 0.5f * middle;
+    below -= 0.5f * middle;
+    give(half, middle);
+  };
+  const HanimJoint shoulder = sided(HanimJoint::l_shoulder, right);
+  const HanimJoint elbow = sided(HanimJoint::l_elbow, right);
+  const HanimJoint wrist = sided(HanimJoint::l_wrist, right);
+  const HanimJoint hip = sided(HanimJoint::l_hip, right);
+  const HanimJoint knee = sided(HanimJoint::l_knee, right);
+  float upper = take(number(shoulder)), fore = take(number(elbow));
+  hinge(upper, fore, helper(HelperJoint::l_elbow_half));
+  // `t` 0..1: from no twist over half of it to all.
+  const auto wind = [&](float w, float t, std::uint16_t none, std::uint16_t half,
+                        std::uint16_t all) {
+    const float middle = 1.0f - std::abs(2.0f * t - 1.0f);
+    give(half, w * middle);
+    give(t < 0.5f ? none : all, w * (1 - middle));
+  };
+  wind(upper, std::clamp((share_along(shoulder, elbow, p) - 0.12f) / 0.76f, 0.0f, 1.0f),
+       helper(HelperJoint::l_upper_arm), helper(HelperJoint::l_upper_arm_mid), number(shoulder));
+  wind(fore, std::clamp((share_along(elbow, wrist, p) - 0.12f) / 0.78f, 0.0f, 1.0f),
+       helper(HelperJoint::l_forearm_near), helper(HelperJoint::l_forearm_mid),
+       helper(HelperJoint::l_forearm_far));
+  float thigh = take(number(hip)), shank = take(number(knee));
+  hinge(thigh, shank, helper(HelperJoint::l_knee_half));
+  give(number(hip), thigh);
+  give(number(knee), shank);
+}
+
 Influence WeightMap::operator()(const Influence& bones, Vec3 p) const {
-  std::map<std::uint16_t, float> sum;
+  Shares sum;
   float trunk = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const float w = bones.weight[k];
@@ -199,6 +258,7 @@ Influence WeightMap::operator()(const Influence& bones, Vec3 p) const {
       sum[b.joint] += trunk * t;
     }
   }
+  for (const bool right : {false, true}) spread_over_helpers(sum, p, right);
   std::vector<std::pair<float, std::uint16_t>> order;
   for (const auto& [joint, w] : sum) order.emplace_back(w, joint);
   std::sort(order.begin(), order.end(), std::greater<>());

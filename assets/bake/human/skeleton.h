@@ -1,15 +1,16 @@
 #pragma once
 // The H-Anim skeleton of a re-posed figure, and its skin weights.
+#include <map>
 #include <span>
 #include <vector>
 
 #include "assets/bake/human/makehuman.h"
-#include "core/body/hanim.h"
+#include "core/body/helper_joints.h"
 
 namespace caryatid::bake {
 
-// All joints in the order of body::HanimJoint (parents first). `bone_head_m`: where every bone's
-// head lies in the rest pose; `eye_center_m`: left, right.
+// All joints in the order of body::HanimJoint (parents first), then of body::HelperJoint.
+// `bone_head_m`: where every bone's head lies in the rest pose; `eye_center_m`: left, right.
 std::vector<Joint> hanim_joints(const BaseHuman& base, std::span<const Vec3> bone_head_m,
                                 std::span<const Vec3, 2> eye_center_m);
 
@@ -17,6 +18,7 @@ std::vector<Joint> hanim_joints(const BaseHuman& base, std::span<const Vec3> bon
 // map bone by bone; the trunk's and neck's share is spread over the vertebrae by the vertex's
 // height, smoothly. Only every second or third vertebra carries skin, so that a jacket stays within
 // the 30 bones of a draw; turns of the vertebrae between still arrive, composed along the chain.
+// Arms and knees use the helper joints.
 class WeightMap {
  public:
   WeightMap(const BaseHuman& base, std::span<const Joint> joints);
@@ -32,7 +34,10 @@ class WeightMap {
     Kind kind = Kind::joint;
     std::uint16_t joint = 0;
   };
+  using Shares = std::map<std::uint16_t, float>;  // By joint.
   Rule rule_of(const std::string& bone) const;
+  float share_along(body::HanimJoint from, body::HanimJoint to, Vec3 p) const;
+  void spread_over_helpers(Shares& sum, Vec3 p, bool right) const;
 
   std::span<const Joint> joints_;
   std::vector<Rule> rules_;    // By bone.

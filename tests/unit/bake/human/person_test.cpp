@@ -1,34 +1,18 @@
 // The two people, built from their recipes: rules of the neutral face, feature points, rest pose,
 // borders, weights. Needs the package of the base human; without it the tests skip.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "assets/bake/human/build.h"
-#include "assets/bake/human/feature_points.h"
-#include "core/body/hanim.h"
+#include "tests/support/built_person.h"
 
 namespace caryatid::bake {
 namespace {
 
 using body::HanimJoint;
 
-const std::filesystem::path kCharacters = CARYATID_SOURCE_DIR "/assets/characters";
-
-class Person : public testing::TestWithParam<const char*> {
+class Person : public test::EachPerson {
  protected:
-  void SetUp() override {
-    if (auto line = BaseHuman::missing(BaseHuman::default_folder())) GTEST_SKIP() << *line;
-    Character& slot = built_[GetParam()];
-    if (slot.objects.empty()) {
-      const BaseHuman base(BaseHuman::default_folder());
-      slot = build_character(read_recipe(kCharacters / (std::string(GetParam()) + ".toml")), base,
-                             read_feature_points(kCharacters / "feature_points.toml", base));
-    }
-    person_ = &slot;
-  }
   Vec3 point(int group, int index) const {
     for (const FeaturePoint& p : person_->feature_points)
       if (p.group == group && p.index == index) return p.position_m;
@@ -40,8 +24,6 @@ class Person : public testing::TestWithParam<const char*> {
     return *std::find_if(person_->objects.begin(), person_->objects.end(),
                          [&](const Object& o) { return o.name == name; });
   }
-  const Character* person_ = nullptr;
-  static inline std::map<std::string, Character> built_;
 };
 
 TEST_P(Person, HasAll84PointsOnce) {
@@ -124,7 +106,7 @@ TEST_P(Person, StandsInTheRestPose) {
 
 TEST_P(Person, ParentsComeFirst) {
   for (std::size_t i = 1; i < person_->joints.size(); ++i) EXPECT_LT(person_->joints[i].parent, i);
-  EXPECT_EQ(person_->joints.size(), body::kHanimJointCount);
+  EXPECT_EQ(person_->joints.size(), body::kSkinJointCount);
 }
 
 TEST_P(Person, WeightsSumToOneOnAtMost30Joints) {
@@ -174,8 +156,7 @@ TEST_P(Person, ImagesArePowersOfTwo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Recipes, Person, testing::Values("woman", "man"),
-                         [](const auto& who) { return std::string(who.param); });
+CARYATID_FOR_EACH_PERSON(Person);
 
 }  // namespace
 }  // namespace caryatid::bake
