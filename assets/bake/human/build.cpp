@@ -7,6 +7,7 @@
 
 #include "assets/bake/human/cover.h"
 #include "assets/bake/human/figure.h"
+#include "assets/bake/human/inner_face.h"
 #include "assets/bake/human/mesh_tools.h"
 #include "assets/bake/human/neutral.h"
 #include "assets/bake/human/skeleton.h"
@@ -87,6 +88,8 @@ class Builder {
   Character build() {
     add_skin();
     for (const FittedPart& part : figure_.parts) add_part(part);
+    settle_gaze(out_);
+    settle_tongue(out_);
     for (const auto& [fap, value] : recipe_.rest_face)
       out_.rest_face[static_cast<std::size_t>(fap)] = value;
     limit_joints();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "assets/bake/face/open_lids.h"
+#include "assets/bake/human/inner_face.h"
 #include "assets/bake/human/mesh_tools.h"
 
 namespace caryatid::bake {
@@ -129,6 +130,34 @@ void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>&
   }
 }
 
+void check_inner_face(const Character& c) {
+  const auto broken = [&](const std::string& rule, float value, float wanted, float allowed,
+                          const char* unit) {
+    if (std::abs(value - wanted) <= allowed) return;
+    char text[200];
+    std::snprintf(text, sizeof text, "%s: neutral face: %s is %.2f%s, wanted %.2f +- %.2f",
+                  c.name.c_str(), rule.c_str(), double(value), unit, double(wanted),
+                  double(allowed));
+    throw std::runtime_error(text);
+  };
+  constexpr float kDegrees = 57.29578f, kMillimetres = 1000.0f;
+  for (int side = 0; side < 2; ++side) {
+    const IrisMeasure eye = measure_iris(c, side);
+    const std::string name = side == 0 ? "left " : "right ";
+    broken(name + "pupil over iris", eye.pupil_diameter_m / eye.iris_diameter_m, 1.0f / 3.0f, 0.05f,
+           "");
+    broken(name + "gaze off +Z",
+           kDegrees * std::atan2(glm::length(Vec2(eye.pupil_m)), eye.pupil_m.z), 0.0f, 1.5f,
+           " degrees");
+  }
+  const TongueMeasure tongue = measure_tongue(c);
+  broken("tip of the tongue from the teeth", kMillimetres * tongue.tip_to_teeth_m, 0.0f, 0.8f,
+         " mm");
+  broken("tip of the tongue over the bite", kMillimetres * tongue.above_bite_m, 0.0f, 1.5f, " mm");
+  broken("tongue's incline", kDegrees * tongue.incline_rad, 0.0f, 20.0f, " degrees");
+  broken("tongue's roll", kDegrees * tongue.roll_rad, 0.0f, 2.0f, " degrees");
+}
+
 void check_neutral(const Character& c, float iris_diameter_m) {
   const auto at = [&](int group, int index) {
     for (const FeaturePoint& f : c.feature_points)
@@ -149,6 +178,7 @@ void check_neutral(const Character& c, float iris_diameter_m) {
   broken("lid openings alike", (at(3, 1).y - at(3, 3).y) - (at(3, 2).y - at(3, 4).y), 0.0005f);
   broken("lids tangent to the iris", c.facts.iris_diameter_m - iris_diameter_m, 0.0006f);
   broken("eyes level", at(3, 5).y - at(3, 6).y, 0.0005f);
+  check_inner_face(c);
 }
 
 }  // namespace caryatid::bake

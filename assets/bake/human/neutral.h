@@ -19,5 +19,8 @@ void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>&
 // Measures the rules on a finished character. Throws std::runtime_error (one line) naming the rule
 // that is broken and by how much.
 void check_neutral(const Character& character, float iris_diameter_m);
+// The part of it that concerns eyes and tongue: gaze along +Z, pupil a third of the iris, tongue
+// flat with its tip where the teeth meet.
+void check_inner_face(const Character& character);
 
 }  // namespace caryatid::bake
