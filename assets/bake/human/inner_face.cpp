@@ -105,6 +105,37 @@ std::vector<float> profile(const FrontView& view, float mx, float my, int radii)
   return sum;
 }
 
+// Mean place of the dark spot that is nearest to the middle: an iris may have a dark rim, too.
+Vec3 middle_of_pupil(const FrontView& view) {
+  const float darkest = *std::min_element(view.light.begin(), view.light.end());
+  constexpr float kPupilLevel = 0.06f;
+  const auto is_dark = [&](int x, int y) {
+    return std::abs(x) <= kHalf && std::abs(y) <= kHalf &&
+           view.light[FrontView::at(x, y)] < darkest + kPupilLevel;
+  };
+  std::pair<int, int> seed{kSide, kSide};
+  for (int y = -kHalf; y <= kHalf; ++y)
+    for (int x = -kHalf; x <= kHalf; ++x)
+      if (is_dark(x, y) && x * x + y * y < seed.first * seed.first + seed.second * seed.second)
+        seed = {x, y};
+  std::vector<bool> seen(view.light.size(), false);
+  std::vector<std::pair<int, int>> open{seed};
+  Vec3 sum{0};
+  float count = 0;
+  while (!open.empty()) {
+    const auto [x, y] = open.back();
+    open.pop_back();
+    if (!is_dark(x, y) || seen[FrontView::at(x, y)]) continue;
+    seen[FrontView::at(x, y)] = true;
+    sum += Vec3(static_cast<float>(x) * kStep_m, static_cast<float>(y) * kStep_m,
+                view.z_m[FrontView::at(x, y)]);
+    count += 1;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      open.emplace_back(x + dx, y + dy);
+  }
+  return sum / count;
+}
+
 // Where a profile passes a level between `from` and `to`, either way; -1 when it does not.
 float crossing(const std::vector<float>& p, int from, int to, float level) {
   const int step = to > from ? 1 : -1;
@@ -204,19 +235,8 @@ void settle_tongue(Character& c) {
 
 IrisMeasure measure_iris(const Character& c, int side) {
   const FrontView view = front_view(c, eye_center_m(c, side));
-  const float darkest = *std::min_element(view.light.begin(), view.light.end());
-  float mx = 0, my = 0, count = 0, z = 0;
-  constexpr float kPupilLevel = 0.06f;
-  for (int y = -kHalf; y <= kHalf; ++y)
-    for (int x = -kHalf; x <= kHalf; ++x)
-      if (view.light[FrontView::at(x, y)] < darkest + kPupilLevel) {
-        mx += static_cast<float>(x);
-        my += static_cast<float>(y);
-        z += view.z_m[FrontView::at(x, y)];
-        count += 1;
-      }
-  mx /= count;
-  my /= count;
+  const Vec3 pupil_m = middle_of_pupil(view);
+  const float mx = pupil_m.x / kStep_m, my = pupil_m.y / kStep_m;
   constexpr int kRadii = 85, kWhite = 80;  // 8 mm: white on every eye.
   const std::vector<float> p = profile(view, mx, my, kRadii);
   const float white = p[kWhite];
@@ -227,7 +247,7 @@ IrisMeasure measure_iris(const Character& c, int side) {
     throw std::runtime_error(c.name +
                              ": neutral face: no pupil and iris can be told apart on the " +
                              (side == 0 ? "left" : "right") + " eye; use another eye texture");
-  return {{mx * kStep_m, my * kStep_m, z / count}, 2 * pupil * kStep_m, 2 * iris * kStep_m};
+  return {pupil_m, 2 * pupil * kStep_m, 2 * iris * kStep_m};
 }
 
 void settle_gaze(Character& c) {
