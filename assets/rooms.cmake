@@ -16,5 +16,6 @@ endif()
 if(tool_sources)
   add_executable(caryatid-tool ${tool_sources})
   target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_render caryatid_display
+    caryatid_voice_client
     caryatid_flags)
 endif()

@@ -11,6 +11,7 @@ void add_gait(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sheet(CLI::App& app);
+void add_speech(CLI::App& app);
 void add_simplify(CLI::App& app);
 void add_history(CLI::App& app);
 

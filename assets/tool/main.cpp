@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   add_plot(app);
   add_render(app);
   add_sheet(app);
+  add_speech(app);
   add_simplify(app);
   add_history(app);
   try {

@@ -34,6 +34,19 @@ struct Font {
   }
 };
 
+// Takes one character off the front of valid UTF-8.
+int next_code_point(std::string_view* io_text) {
+  const auto byte = [io_text](std::size_t i) {
+    return i < io_text->size() ? static_cast<unsigned char>((*io_text)[i]) : 0;
+  };
+  const int lead = byte(0);
+  const std::size_t bytes = lead < 0xC0 ? 1 : (lead < 0xE0 ? 2 : (lead < 0xF0 ? 3 : 4));
+  int code = bytes == 1 ? lead : lead & (0x7F >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) code = code << 6 | (byte(i) & 0x3F);
+  io_text->remove_prefix(std::min(bytes, io_text->size()));
+  return code;
+}
+
 double to_linear(std::uint8_t v) { return std::pow(v / 255.0, 2.2); }
 
 }  // namespace
@@ -83,7 +96,8 @@ void draw_text(std::string_view text, int x, int y, float pixel_height, Picture*
   static const Font font;
   const float scale = stbtt_ScaleForPixelHeight(&font.info, pixel_height);
   auto pen = static_cast<float>(x);
-  for (const char c : text) {
+  while (!text.empty()) {
+    const int c = next_code_point(&text);
     int w = 0, h = 0, dx = 0, dy = 0, advance = 0, bearing = 0;
     unsigned char* glyph = stbtt_GetCodepointBitmap(&font.info, 0, scale, c, &w, &h, &dx, &dy);
     for (int gy = 0; gy < h; ++gy)

@@ -31,8 +31,8 @@ struct Box {
 // Fills the box with one grey; what lies outside is cut.
 void fill_box(const Box& box, std::uint8_t grey, Picture* to);
 
-// Text in DejaVu Sans (Debian's fonts-dejavu-core), white, baseline at y. Throws when there is no
-// font.
+// UTF-8 text in DejaVu Sans (Debian's fonts-dejavu-core), white, baseline at y. Throws when there
+// is no font.
 void draw_text(std::string_view text, int x, int y, float pixel_height, Picture* to);
 
 // Pictures of one size in rows of `columns`, each with its caption beneath (none when empty).

@@ -13,6 +13,7 @@
 #include "assets/tool/gait_style_named.h"
 #include "assets/tool/gesture_sheet.h"
 #include "assets/tool/raster.h"
+#include "assets/tool/speech_sheet.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
 #include "core/face/fap_table.h"
@@ -24,6 +25,7 @@ namespace {
 struct SheetArgs {
   std::string pack, mesh, what, out, lod;
   std::vector<std::string> moods;
+  VoiceJob voice;
   std::uint32_t cell = 400;
   long shuffle = -1;
 };
@@ -55,6 +57,32 @@ Cells visemes(Studio* studio) {
     pose.faps = face::viseme_frame(v);
     cells.pictures.push_back(studio->picture(pose));
     cells.captions.push_back(std::to_string(v) + "  " + kPhonemes[v]);
+  }
+  return cells;
+}
+
+// Five sounds that a lip-reader tells apart, each from the middle of a spoken word.
+Cells lips(Studio* studio) {
+  struct Example {
+    const char *sound, *word, *ipa;
+  };
+  constexpr Example kExamples[] = {{"p", "apart", "p"},
+                                   {"f", "afar", "f"},
+                                   {"th", "Athena", "θ"},
+                                   {"o", "awful", "ɔː"},
+                                   {"ee", "agreed", "iː"}};
+  Cells cells;
+  for (const Example& e : kExamples) {
+    const Spoken spoken = speak({.text = e.word});
+    for (std::size_t i = 0; i + 1 < spoken.events.size(); ++i) {
+      const SpokenEvent& event = spoken.events[i];
+      if (event.kind != SpokenEvent::Kind::phone || !event.text.ends_with(e.ipa)) continue;
+      const std::int32_t middle_ms = (event.time_ms + spoken.events[i + 1].time_ms) / 2;
+      cells.pictures.push_back(
+          speech_picture(spoken, {.time_ms = middle_ms - 20, .mouth_only = true}, studio));
+      cells.captions.emplace_back(e.sound);
+      break;
+    }
   }
   return cells;
 }
@@ -159,6 +187,10 @@ void sheet(const SheetArgs& a) {
     return;
   }
   Studio studio(a.pack, a.cell, a.cell);
+  if (a.what == "speech") {
+    write_png(speech_strip(speak(a.voice), a.voice.text, a.cell, &studio), a.out);
+    return;
+  }
   Cells cells;
   std::uint32_t columns = 4;
   if (a.what == "emotions") cells = emotions(&studio, a.lod);
@@ -180,6 +212,7 @@ void sheet(const SheetArgs& a) {
     GaitCells gestures = gesture_poses(&studio);
     cells = {std::move(gestures.pictures), std::move(gestures.captions)};
   }
+  if (a.what == "lips") cells = lips(&studio), columns = 5;
   if (a.what == "lods") cells = lods(&studio, a.cell);
   if (a.shuffle >= 0) shuffle(static_cast<unsigned>(a.shuffle), &cells);
   write_png(grid(cells.pictures, cells.captions, columns), a.out);
@@ -190,9 +223,10 @@ void sheet(const SheetArgs& a) {
 void add_sheet(CLI::App& app) {
   auto a = std::make_shared<SheetArgs>();
   CLI::App* cmd = app.add_subcommand("sheet", "A contact sheet with captions");
-  cmd->add_option("what", a->what, "emotions visemes faps lods gait gestures")
+  cmd->add_option("what", a->what, "emotions visemes faps lods gait gestures speech lips")
       ->required()
-      ->check(CLI::IsMember({"emotions", "visemes", "faps", "lods", "gait", "gestures"}));
+      ->check(CLI::IsMember(
+          {"emotions", "visemes", "faps", "lods", "gait", "gestures", "speech", "lips"}));
   CLI::Option* pack = cmd->add_option("--pack", a->pack, "The character");
   CLI::Option* mesh = cmd->add_option("--mesh", a->mesh, "lods: any .obj, .off or .ply instead");
   mesh->excludes(pack);
@@ -204,6 +238,8 @@ void add_sheet(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::IsMember(
           {"normal", "bored", "happy", "sad", "angry", "hurried", "tired", "proud", "run"}));
+  cmd->add_option("--text", a->voice.text, "speech: what is said");
+  cmd->add_option("--language", a->voice.language, "speech: its language (default en)");
   cmd->add_option("--shuffle", a->shuffle,
                   "Seed: numbers in place of captions, in random order; the key goes to stdout");
   cmd->add_option("-o,--out", a->out, "OUT.png")->required();

@@ -81,6 +81,8 @@ Picture Studio::picture(const Pose& pose) {
   } else {
     mix.rest = &person_->rest_face();
     mix.emotion = &pose.faps;
+    if (pose.speech_strength > 0.0f) mix.speech = &pose.speech;
+    mix.speech_strength = pose.speech_strength;
   }
   person_->show(mix.run(), pose.baps, Affine{}, 0.0f);
   const scene::Subject subject = scene::subject_of(person_->view());

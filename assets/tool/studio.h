@@ -16,7 +16,9 @@ namespace caryatid::tool {
 // What a picture shows. Values of `faps` are added to the calm face unless `absolute`.
 struct Pose {
   face::FapFrame faps;
-  bool absolute = false;  // A stream's frame: replaces the calm face.
+  face::FapFrame speech;         // For face::MixJob::speech.
+  float speech_strength = 0.0f;  // 0: the mouth is the mood's.
+  bool absolute = false;         // A stream's frame: replaces the calm face.
   body::BapFrame baps;
   scene::View view = scene::View::head;
   std::optional<scene::Framing> framing = std::nullopt;  // In place of `view`.

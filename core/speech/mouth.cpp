@@ -256,31 +256,61 @@ void mix_shapes(const Shapes& shapes, const Shares& shares, face::FapFrame& out)
   }
 }
 
-// Contacts of lips exclude each other: where two are near, the nearer one has its way.
+// What the contacts of lips near a moment ask for. They exclude each other: where two are near, the
+// one whose time it is has all, and between them one passes into the other.
+class LipContacts {
+ public:
+  explicit LipContacts(float t) : t_(t) {}
+
+  void add(const Segment& s, const face::FapFrame& shape, float weight) {
+    const float away = std::abs(t_ - 0.5f * (s.from_ms + s.to_ms));
+    const bool firm = weight >= 1.0f;
+    if (firm && firm_ && away >= firm_away_) return;
+    if (firm) {
+      firm_ = true;
+      firm_away_ = away;
+      sum_ = {};
+      shares_ = 0.0f;
+    } else if (firm_) {
+      return;
+    }
+    const float share = weight / (1.0f - weight + 1e-4f);
+    for (int fap = 3; fap <= 60; ++fap) sum_.set(fap, sum_.get(fap) + share * shape.get(fap));
+    shares_ += share;
+    weight_ = std::max(weight_, weight);
+  }
+  void hold(face::FapFrame& io) {
+    if (shares_ <= 0.0f) return;
+    for (float& v : sum_.value) v /= shares_;
+    hold_lips(io, sum_, weight_);
+  }
+
+ private:
+  float t_;
+  face::FapFrame sum_;
+  float shares_ = 0.0f, weight_ = 0.0f, firm_away_ = 0.0f;
+  bool firm_ = false;
+};
+
 float hold_contacts(const Segments& segments, const Shapes& shapes, float t, float least_ms,
                     face::FapFrame& io) {
-  const Segment* lips = nullptr;
-  float lips_weight = 0.0f, strongest = 0.0f;
+  LipContacts lips(t);
+  float strongest = 0.0f;
   for (const Segment& s : segments) {
     const Contact contact = s.sound->contact;
     if (contact == Contact::none) continue;
     const float w = hold_of(s, least_ms).weight(t);
     if (w <= 0.0f) continue;
     strongest = std::max(strongest, w);
+    const face::FapFrame& shape = shapes[s.sound->first];
     if (contact == Contact::lips || contact == Contact::lip_teeth) {
-      const bool nearer =
-          lips == nullptr || w > lips_weight ||
-          (w == lips_weight && std::abs(t - 0.5f * (s.from_ms + s.to_ms)) <
-                                   std::abs(t - 0.5f * (lips->from_ms + lips->to_ms)));
-      if (nearer) lips = &s, lips_weight = w;
+      lips.add(s, shape, w);
       continue;
     }
-    const face::FapFrame& shape = shapes[s.sound->first];
     hold_tongue(io, shape, w);
     if (contact == Contact::tongue_teeth || s.sound->first == 8) show_tongue(io, shape, w);
   }
-  // Last, so that nothing undoes them.
-  if (lips != nullptr) hold_lips(io, shapes[lips->sound->first], lips_weight);
+  lips.hold(io);  // Last, so that nothing undoes them.
   return strongest;
 }
 

@@ -66,6 +66,7 @@ void Utterance::finish(std::int32_t end_ms) {
 }
 
 void Utterance::continue_at(std::int32_t base_ms, std::uint32_t base_byte) {
+  end_ms_ = std::max(end_ms_, base_ms);
   finish(0);
   base_ms_ = std::max(base_ms, 0);
   base_byte_ = base_byte;
