@@ -109,7 +109,7 @@ constexpr std::array<GaitStyle, kGaitMoodCount> kStyles = {{
      .chest_pitch_deg = 13.0f,
      .shoulders_forward_deg = 14.0f,
      .shoulders_up_deg = -3.0f,
-     .arm_out_deg = 5.0f,
+     .arm_out_deg = 10.5f,
      .finger_curl_deg = 22.0f,
      .bounce_m = 0.0f},
     // angry
@@ -188,7 +188,7 @@ constexpr std::array<GaitStyle, kGaitMoodCount> kStyles = {{
      .chest_pitch_deg = 5.0f,
      .shoulders_forward_deg = 6.0f,
      .shoulders_up_deg = -5.0f,
-     .arm_out_deg = 5.0f,
+     .arm_out_deg = 8.5f,
      .finger_curl_deg = 14.0f,
      .bounce_m = 0.0f,
      .step_width_m = 0.16f,

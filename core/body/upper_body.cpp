@@ -27,17 +27,20 @@ Range range_of(SpinePart part) {
   }
 }
 
+// `lean_rad`: of the trunk to the left.
 void pose_arm(const Skeleton& s, const GaitStyle& style, bool left, float forwardness,
-              BapFrame& out) {
+              float lean_rad, BapFrame& out) {
   const Limb& limb = arm(left);
   const float side = left ? 1.0f : -1.0f;
   const float share = 0.5f + 0.5f * forwardness;  // 0 hand at the back, 1 in front.
   const auto between = [&](float back, float front) { return back + (front - back) * share; };
-  // Arms hang from a bowed trunk, they do not lean with it.
+  // Arms hang from a bowed or leaning trunk, they do not go with it.
   const float trunk = style.trunk_pitch_deg + style.chest_pitch_deg;
   const float upper = (between(style.arm_back_deg, style.arm_forward_deg) + trunk) * kDegree;
   const float elbow = between(style.elbow_back_deg, style.elbow_forward_deg) * kDegree;
-  const float out_rad = style.arm_out_deg * kDegree;
+  // Where the trunk leans away the hip is in the way.
+  const float lean_out = side * lean_rad > 0.0f ? side * lean_rad : 0.0f;
+  const float out_rad = style.arm_out_deg * kDegree + lean_out;
   // The wrist that these angles mean, as the target: direction and distance from the shoulder.
   const Vec3 u = s.center(limb.hinge) - s.center(limb.upper);
   const Vec3 v = s.center(limb.end) - s.center(limb.hinge);
@@ -122,7 +125,7 @@ void pose_upper_body(const Skeleton& s, const GaitStyle& style, float left_phase
         left ? HanimJoint::l_sternoclavicular : HanimJoint::r_sternoclavicular;
     set_turn(out, clavicle, Axis::z, side * style.shoulders_up_deg * kDegree);
     set_turn(out, clavicle, Axis::y, -side * style.shoulders_forward_deg * kDegree);
-    pose_arm(s, style, left, left ? left_arm : -left_arm, out);
+    pose_arm(s, style, left, left ? left_arm : -left_arm, lean, out);
   }
 }
 
