@@ -2,6 +2,7 @@
 # Heap, exceptions and big libraries are welcome.
 find_package(Eigen3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+pkg_check_modules(FONTS REQUIRED IMPORTED_TARGET freetype2 harfbuzz harfbuzz-subset)
 add_library(caryatid_host_libraries INTERFACE)
 target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
   $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES> ${CMAKE_SYSROOT}/usr/include/stb)
@@ -11,7 +12,7 @@ file(GLOB_RECURSE tool_sources CONFIGURE_DEPENDS assets/tool/*.cpp)
 if(bake_sources)
   add_library(caryatid_bake STATIC ${bake_sources})
   target_link_libraries(caryatid_bake PUBLIC caryatid_agent caryatid_host_libraries
-    PRIVATE caryatid_flags)
+    PRIVATE PkgConfig::FONTS caryatid_flags)
 endif()
 if(tool_sources)
   add_executable(caryatid-tool ${tool_sources})

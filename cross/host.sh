@@ -29,7 +29,9 @@ packages=(
   libgpiod-dev libhidapi-dev                                   # buttons
   libasound2-dev libespeak-ng-dev espeak-ng-data               # sound and voice
   libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
-  fonts-dejavu-core                                            # captions
+  fonts-dejavu-core                                            # captions of sheets
+  libfreetype-dev libharfbuzz-dev fonts-noto-core              # glyphs of the kiosk's captions
+  libfribidi-dev libunibreak-dev                               # its texts
   libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth weston # tests
   clang libclang-rt-14-dev clang-format                        # fuzzing and format
 )

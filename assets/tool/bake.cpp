@@ -259,6 +259,7 @@ void add_bake(CLI::App& app) {
   head->footer(kPointsHelp);
   head->callback([h] { bake_head(*h); });
   auto p = std::make_shared<BakeArgs>();
+  add_bake_font(*cmd);
   CLI::App* points = cmd->add_subcommand("feature-points",
                                          "A picture of a recipe's face with all points numbered");
   points->add_option("recipe", p->recipe, "RECIPE.toml")->required();
