@@ -23,7 +23,7 @@ packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-ce
 libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libwayland-dev
   wayland-protocols libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev
   libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev
-  libeigen3-dev libcli11-dev)
+  libeigen3-dev libcli11-dev libharfbuzz-dev libfribidi-dev libunibreak-dev)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }

@@ -149,10 +149,11 @@ build_preset() {
   fi
 }
 
-# What a character is made of: every file of assets/ that is not program text, the tool, the base.
+# What a character is made of: recipes and tables, the tool, the base human.
 bake_key() {
   {
-    find assets -type f ! -name '*.cpp' ! -name '*.h' -print0 | sort -z | xargs -0 sha256sum
+    find assets -type f ! -name '*.cpp' ! -name '*.h' ! -path 'assets/programme/*' \
+      ! -path 'assets/pictures/*' -print0 | sort -z | xargs -0 sha256sum
     sha256sum "$bin/caryatid-tool"
     echo "$base_sha512"
   } | sha256sum | cut -d' ' -f1

@@ -28,27 +28,6 @@ constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
 
 void complain(const std::string& line) { std::fprintf(stderr, "caryatid: %s\n", line.c_str()); }
 
-bool read_text(const std::string& path, std::string* out, std::string* out_error) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) {
-    *out_error = path + ": " + std::strerror(errno) + "; name a file that can be read";
-    return false;
-  }
-  char piece[4096];
-  for (std::size_t n;
-       (n = std::fread(piece, 1, sizeof piece, file)) > 0 && out->size() < (1u << 20);)
-    out->append(piece, n);
-  std::fclose(file);
-  return true;
-}
-
-bool load_config(const std::string& path, Config* out, std::string* out_error) {
-  if (path.empty())
-    return parse_config(default_config_text(), "default kiosk.toml", out, out_error);
-  std::string text;
-  return read_text(path, &text, out_error) && parse_config(text, path, out, out_error);
-}
-
 // A bust has the joints of a whole skeleton, but nothing of it reaches the floor.
 bool has_legs(const pack::View& pack) {
   constexpr float kFoot_m = 0.1f;
@@ -67,31 +46,12 @@ scene::View view_of(const std::string& name) {
 
 void Kiosk::request_stop() { g_stop = true; }
 
-bool Kiosk::read_config() {
-  std::string error;
-  if (!load_config(options_.config, &config_, &error)) {
-    complain(error);
-    return false;
-  }
-  if (options_.script.empty()) return true;
-  std::string text;
-  auto script = std::make_unique<platform::ScriptedButtons>();
-  const auto number_of = [this](std::string_view name) { return config_.programme.find(name) + 1; };
-  if (!read_text(options_.script, &text, &error) ||
-      !script->parse(text, options_.script, number_of, &error)) {
-    complain(error);
-    return false;
-  }
-  script_ = std::move(script);
-  return true;
-}
-
 bool Kiosk::load_base(std::string* out_error) {
   const pack::PackHeader& h = pack_file_.header();
   // A damaged header could ask for anything; no board that we serve gives more than this.
   constexpr std::uint32_t kMostArenaBytes = 64u << 20;
   const std::uint32_t bytes = std::max(h.arena_bytes, h.image_bytes);
-  if (bytes > kMostArenaBytes || !memory_.map(bytes + 4096)) {
+  if (bytes > kMostArenaBytes || !memory_.map(bytes + Desk::kArenaBytes + 4096)) {
     *out_error = describe_refusal(pack_file_.name(),
                                   {Code::out_of_capacity, std::uint16_t(pack::Refusal::too_large)});
     return false;
@@ -202,6 +162,10 @@ bool Kiosk::start() {
     complain(error);
     return false;
   }
+  if (!desk_.take_memory(memory_.arena())) {
+    complain("the built-in programme is damaged; build again");
+    return false;
+  }
   if (!open_renderer() || !open_outputs()) return false;
   // A recorded run must not depend on what is wired to this machine.
   if (!options_.virtual_clock) {
@@ -217,7 +181,7 @@ bool Kiosk::start() {
       return false;
     }
   }
-  agent_ = std::make_unique<agent::Agent>(&config_.programme, options_.seed);
+  agent_ = std::make_unique<agent::Agent>(options_.seed);
   open_speaker();
   set_stage();
   aim_camera();
@@ -388,8 +352,10 @@ void Kiosk::aim_camera() {
 }
 
 void Kiosk::act(const Tick& tick) {
+  follow_programme(tick);
   const SpeechFrame& spoken = speak(tick);
-  const agent::Intentions& will = agent_->step(tick.dt_s, events_.span());
+  obey_marks(spoken);
+  const agent::Intentions& will = agent_->step(tick.dt_s);
   if (will.pressed) {
     ++presses_;
     ++service_.state().presses;
@@ -555,9 +521,11 @@ void Kiosk::print_memory() {
 
 bool Kiosk::check(const Options& options) {
   Kiosk kiosk(options);
-  if (!kiosk.read_config()) return false;
   std::string error;
-  bool ok = true;
+  bool ok = kiosk.load_config(&error);
+  if (!ok) complain(error);
+  if (ok) ok = Desk::check(options.config);
+  if (!ok || !kiosk.read_script()) return false;
   if (!options.pack.empty()) {
     ok = kiosk.pack_file_.open(options.pack, &error) && kiosk.load_base(&error);
     Status status;

@@ -16,6 +16,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/draw_list.h"
 #include "firmware-app/config.h"
+#include "firmware-app/desk.h"
 #include "firmware-app/memory.h"
 #include "firmware-app/metrics.h"
 #include "firmware-app/options.h"
@@ -67,6 +68,8 @@ class Kiosk {
   };
 
   bool read_config();
+  bool load_config(std::string* out_error);
+  bool read_script();
   bool open_person();
   bool load_base(std::string* out_error);
   bool open_display();
@@ -84,6 +87,9 @@ class Kiosk {
   void act(const Tick& tick);
   const SpeechFrame& speak(const Tick& tick);
   SpeechMetrics speech_metrics() const;
+  agent::Moment local_time(const Tick& tick) const;
+  void follow_programme(const Tick& tick);
+  void obey_marks(const SpeechFrame& spoken);
   void choose_levels(const Tick& tick, const agent::Intentions& will);
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
@@ -99,6 +105,7 @@ class Kiosk {
 
   Options options_;
   Config config_;
+  Desk desk_;
   Memory memory_;
   PackFile pack_file_;
   pack::Loader loader_;

@@ -23,7 +23,7 @@ void refuse(platform::ControlReply& reply, std::string_view why) {
 }  // namespace
 
 bool Kiosk::press(std::string_view name, bool down) {
-  const int index = config_.programme.find(name);
+  const int index = config_.buttons.find(name);
   if (index < 0) return false;
   return events_.push({static_cast<std::uint16_t>(index + 1), down, platform::monotonic_us()});
 }

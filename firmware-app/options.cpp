@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 namespace caryatid::app {
 namespace {
@@ -27,6 +28,8 @@ usage: caryatid [OPTIONS]
                          object (head, body, hair, clothes, eye, mouth, brow, lash)
   --script FILE          recorded button events, one a line: SECONDS NAME down|up
   --virtual-clock        time advances by one frame period a frame: same input, same output
+  --now DATE             date and time at which that clock starts, YYYY-MM-DDThh:mm (default
+                         2026-11-25T10:00)
   --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w
                          (default), pi3, pi4, mali450, gc7000
   --duration S           stop after S seconds
@@ -61,6 +64,7 @@ enum Id : int {
   kFps,
   kScript,
   kVirtual,
+  kNow,
   kBoard,
   kDuration,
   kFramesOut,
@@ -93,6 +97,7 @@ constexpr option kLong[] = {
     {"target-fps", required_argument, nullptr, kFps},
     {"script", required_argument, nullptr, kScript},
     {"virtual-clock", no_argument, nullptr, kVirtual},
+    {"now", required_argument, nullptr, kNow},
     {"board", required_argument, nullptr, kBoard},
     {"duration", required_argument, nullptr, kDuration},
     {"frames-out", required_argument, nullptr, kFramesOut},
@@ -169,6 +174,20 @@ bool audio_kind(const char* text, Options* out) {
   return one_of("audio", text, {"auto", "alsa", "alsa:DEVICE", "file:PATH", "null"}, &out->audio);
 }
 
+bool date_of(const char* text, Options* out) {
+  std::tm t{};
+  char rest = '\0';
+  if (std::sscanf(text, "%4d-%2d-%2dT%2d:%2d%c", &t.tm_year, &t.tm_mon, &t.tm_mday, &t.tm_hour,
+                  &t.tm_min, &rest) != 5 ||
+      t.tm_year < 1970 || t.tm_mon < 1 || t.tm_mon > 12 || t.tm_mday < 1 || t.tm_mday > 31 ||
+      t.tm_hour > 23 || t.tm_min > 59)
+    return wrong("now", text, "a date and time as 2026-11-25T10:00");
+  t.tm_year -= 1900;
+  --t.tm_mon;
+  out->now_s = timegm(&t);
+  return true;
+}
+
 bool rotation(const char* text, Options* out) {
   std::string r;
   if (!one_of("rotate", text, {"0", "90", "180", "270"}, &r)) return false;
@@ -216,6 +235,8 @@ bool take(int id, const char* text, Options* o) {
     case kScript:
       o->script = text;
       return true;
+    case kNow:
+      return date_of(text, o);
     case kVirtual:
       o->virtual_clock = true;
       return true;

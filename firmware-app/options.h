@@ -15,6 +15,7 @@ struct Options {
   std::uint32_t target_fps = 30;
   std::string script;
   bool virtual_clock = false;
+  std::int64_t now_s = 1795600800;  // --now: the virtual clock's start, local, as if it were UTC.
   std::string board = "pi-zero-2w";
   double duration_s = 0.0;  // 0: until told to stop.
   std::string frames_out;

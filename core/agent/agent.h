@@ -1,10 +1,9 @@
 #pragma once
-// Button events in, intentions out. Pure function of (state, time step, events); its randomness
-// comes from the seed, so a recorded script replays bit for bit.
-#include <span>
-
+// The mood and the life of the person: what the guide or another program asks for goes in, what the
+// body shall show comes out. Pure function of (state, time step, calls); its randomness comes from
+// the seed, so a recorded script replays bit for bit.
 #include "core/agent/idle.h"
-#include "core/agent/programme.h"
+#include "core/body/gesture.h"
 #include "core/emotion/feeling.h"
 
 namespace caryatid::agent {
@@ -15,9 +14,11 @@ struct Intentions {
   emotion::Emotion emotion = emotion::Emotion::calm;  // That was asked for last and is still up.
   face::FapFrame idle_face;                           // For face::MixJob::idle.
   body::BapFrame body;
+  body::GestureKind gesture = body::GestureKind::none;  // That begins in this frame.
   bool covers_change = false;  // A blink or saccade: the moment to change a level of detail.
   bool pressed = false;        // A known button went down in this step.
   bool busy = false;           // Somebody is there: within kBusy_s of a press, or an emotion is up.
+  bool asleep = false;         // The kiosk is closed: she shall leave.
 };
 
 // The person counts as visited for so long after the last press.
@@ -25,28 +26,32 @@ inline constexpr float kBusy_s = 20.0f;
 
 class Agent {
  public:
-  // programme: borrowed. seed: same seed, same life.
-  Agent(const Programme* programme, std::uint64_t seed);
+  // seed: same seed, same life.
+  explicit Agent(std::uint64_t seed) : idle_(seed) {}
 
-  // Advances by dt_s (clamped to 0..0.25: a stalled board does not make the person jump) and takes
-  // the events since the last step in their order. Events of unknown buttons are ignored.
-  // O(events).
-  const Intentions& step(float dt_s, std::span<const ButtonEvent> events);
-
-  // The same for other programs of the deployer (--control): an emotion at a strength 0..1.
+  // A visitor pressed a button that is known.
+  void press();
+  // An emotion as a button brings it: it comes and goes; again within 2 s for more of it.
+  void feel(emotion::Emotion e);
+  // The same for other programs of the deployer (--control): held at a strength 0..1.
   void feel(emotion::Emotion e, float strength);
   // At a phrase's end, say.
   void blink() { idle_.blink_now(); }
+  // Begins with the next step.
+  void gesture(body::GestureKind kind) { gesture_ = kind; }
+  void sleep(bool asleep) { out_.asleep = asleep; }
+
+  // Advances by dt_s (clamped to 0..0.25: a stalled board does not make the person jump). O(1).
+  const Intentions& step(float dt_s);
 
   emotion::Emotion emotion() const { return out_.emotion; }
 
  private:
-  void press(const Button& button);
-
-  const Programme* programme_;
   emotion::Feeling feeling_;
   IdleLife idle_;
   float since_press_s_ = 1e6f;
+  bool pressed_ = false;
+  body::GestureKind gesture_ = body::GestureKind::none;
   Intentions out_;
 };
 

@@ -130,10 +130,7 @@ class Expander {
 }  // namespace
 
 void expand(const Programme& programme, const Line& line, const Moment& now, Utterable* out) {
-  out->text.clear();
-  out->runs.clear();
-  out->cues.clear();
-  out->value_glyphs_.clear();
+  out->clear();
   out->language = line.language;
   Expander(programme, line, now, out, &out->value_glyphs_).run();
 }

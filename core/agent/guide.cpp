@@ -12,9 +12,8 @@ float per_cent(std::uint8_t value) { return static_cast<float>(value) * 0.01f; }
 }  // namespace
 
 void Guide::take(const Programme& programme) {
-  const bool first = programme_.header == nullptr;
   std::uint16_t page = programme.header->start_page, language = 0;
-  if (!first) {
+  if (programme_.header != nullptr) {
     const auto page_name = programme_.text(programme_.pages[out_.page].name);
     const auto code = programme_.text(programme_.languages[out_.language].code);
     for (std::size_t p = 0; p < programme.pages.size(); ++p)
@@ -29,7 +28,7 @@ void Guide::take(const Programme& programme) {
   out_.language = language;
   out_.picture = programme_.pages[page].enter.picture;
   out_.say = kNone;
-  before_count_ = 0;
+  before_.clear();
 }
 
 const Action& Guide::action_of(std::uint16_t button) const {
@@ -40,13 +39,19 @@ const Action& Guide::action_of(std::uint16_t button) const {
 }
 
 void Guide::go(std::uint16_t page) {
-  if (page != out_.page) {
-    if (before_count_ == before_.size()) {
-      std::copy(before_.begin() + 1, before_.end(), before_.begin());
-      --before_count_;
-    }
-    before_[before_count_++] = out_.page;
+  if (page != out_.page && !before_.push(out_.page)) {
+    std::copy(before_.begin() + 1, before_.end(), before_.begin());
+    before_[before_.size() - 1] = out_.page;
   }
+  out_.page = page;
+  out_.picture = kNone;
+  act(programme_.pages[page].enter);
+}
+
+void Guide::go_back() {
+  if (before_.empty()) return;
+  const std::uint16_t page = before_[before_.size() - 1];
+  before_.pop();
   out_.page = page;
   out_.picture = kNone;
   act(programme_.pages[page].enter);
@@ -70,20 +75,16 @@ void Guide::command(Command what) {
       out_.captions = !out_.captions;
       break;
     case Command::louder:
+      louder_ = std::min(louder_ + kVolumeStep, 0.6f);
+      break;
     case Command::softer:
-      louder_ =
-          std::clamp(louder_ + (what == Command::louder ? kVolumeStep : -kVolumeStep), -0.6f, 0.6f);
+      louder_ = std::max(louder_ - kVolumeStep, -0.6f);
       break;
     case Command::repeat:
       out_.says = out_.say != kNone;
       break;
     case Command::back:
-      if (before_count_ > 0) {
-        const std::uint16_t page = before_[before_count_ - 1];
-        go(page);
-        // Going back is no step forward: drop what go() noted, and where we came from.
-        before_count_ -= std::min<std::size_t>(before_count_, 2);
-      }
+      go_back();
       break;
     case Command::hush:
       out_.hushes = true;
@@ -130,7 +131,7 @@ void Guide::forget_visitor() {
   out_.captions = true;
   out_.say = kNone;
   louder_ = 0.0f;
-  before_count_ = 0;
+  before_.clear();
 }
 
 const Guidance& Guide::step(float dt_s, std::span<const ButtonEvent> events, const Moment& now,
@@ -158,8 +159,8 @@ const Guidance& Guide::step(float dt_s, std::span<const ButtonEvent> events, con
     act(attract.action);
   }
   const bool night = is_night(schedule, now);
-  out_.volume =
-      std::clamp(per_cent(night ? schedule.night_volume : schedule.volume) + louder_, 0.0f, 1.0f);
+  const std::uint8_t set = night ? schedule.night_volume : schedule.volume;
+  out_.volume = std::clamp(per_cent(set) + louder_, 0.0f, 1.0f);
   return out_;
 }
 

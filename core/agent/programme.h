@@ -234,6 +234,13 @@ struct Utterable {
   FixedVector<Cue, 128> cues;  // Their `at` counts bytes of `text`.
   std::uint16_t language = 0;
 
+  void clear() {
+    text.clear();
+    runs.clear();
+    cues.clear();
+    value_glyphs_.clear();
+  }
+
  private:
   friend void expand(const Programme&, const Line&, const Moment&, Utterable*);
   FixedVector<scene::ShapedGlyph, 512> value_glyphs_;

@@ -7,17 +7,25 @@
 namespace caryatid::agent {
 namespace {
 
-constexpr std::size_t kClosing = 64;  // Room for the ends of all that can be open.
+constexpr std::size_t kClosing = 64;  // Bytes for the ends of all elements that can be open.
 
 struct Number {
   std::array<char, 10> digits{};
   std::size_t begin = 10;
   explicit Number(std::uint32_t n) {
-    do digits[--begin] = static_cast<char>('0' + n % 10);
-    while ((n /= 10) != 0 && begin > 0);
+    do {
+      digits[--begin] = static_cast<char>('0' + n % 10);
+      n /= 10;
+    } while (n != 0);
   }
   std::string_view text() const { return {digits.data() + begin, digits.size() - begin}; }
 };
+
+std::string_view escape_of(char c) {
+  if (c == '&') return "&amp;";
+  if (c == '<') return "&lt;";
+  return c == '>' ? "&gt;" : "";
+}
 
 }  // namespace
 
@@ -26,13 +34,12 @@ void Ssml::put(std::string_view piece) {
   for (const char c : piece) (void)text_.push(c);
 }
 
-void Ssml::put_tag(std::string_view piece, std::size_t plain_at) {
-  const auto plain = static_cast<std::uint32_t>(plain_at);
-  put(piece);
-  (void)anchors_.push({static_cast<std::uint32_t>(text_.size()), plain});
+void Ssml::anchor(std::size_t plain_at) {
+  (void)anchors_.push(
+      {static_cast<std::uint32_t>(text_.size()), static_cast<std::uint32_t>(plain_at)});
 }
 
-void Ssml::put_cue(const Programme& programme, const Cue& cue, std::size_t plain_at) {
+void Ssml::put_cue(const Programme& programme, const Cue& cue) {
   switch (cue.kind) {
     case CueKind::pause:
       put("<break time=\"");
@@ -63,28 +70,28 @@ void Ssml::put_cue(const Programme& programme, const Cue& cue, std::size_t plain
     case CueKind::mark:
       break;
   }
-  put_tag("", plain_at);
 }
 
 void Ssml::write(const Programme& programme, const Utterable& text) {
   text_.clear();
   anchors_.clear();
   emphasis_ = language_ = spell_ = false;
-  put_tag("<speak>", 0);
+  put("<speak>");
+  anchor(0);
   std::size_t cue = 0;
   for (std::size_t i = 0; i <= text.text.size(); ++i) {
-    for (; cue < text.cues.size() && text.cues[cue].at <= i; ++cue)
-      if (text_.size() + 2 * kClosing < text_.capacity()) put_cue(programme, text.cues[cue], i);
+    for (; cue < text.cues.size() && text.cues[cue].at <= i; ++cue) {
+      if (text_.size() + 2 * kClosing < text_.capacity()) put_cue(programme, text.cues[cue]);
+      anchor(i);
+    }
     if (i == text.text.size() || text_.size() + kClosing > text_.capacity()) break;
-    const char c = text.text[i];
-    if (c == '&')
-      put_tag("&amp;", i + 1);
-    else if (c == '<')
-      put_tag("&lt;", i + 1);
-    else if (c == '>')
-      put_tag("&gt;", i + 1);
-    else
-      (void)text_.push(c);
+    const std::string_view escape = escape_of(text.text[i]);
+    if (escape.empty()) {
+      (void)text_.push(text.text[i]);
+      continue;
+    }
+    put(escape);
+    anchor(i + 1);
   }
   if (spell_) put("</say-as>");
   if (emphasis_) put("</emphasis>");
@@ -93,7 +100,7 @@ void Ssml::write(const Programme& programme, const Utterable& text) {
 }
 
 std::uint32_t Ssml::plain_byte(std::uint32_t ssml_byte) const {
-  const Anchor* after =
+  const auto* after =
       std::upper_bound(anchors_.begin(), anchors_.end(), ssml_byte,
                        [](std::uint32_t byte, const Anchor& anchor) { return byte < anchor.ssml; });
   if (after == anchors_.begin()) return 0;

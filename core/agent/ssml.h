@@ -7,8 +7,8 @@ namespace caryatid::agent {
 
 class Ssml {
  public:
-  // Writes `text` with its cues. What does not fit is cut; the elements are closed all the same.
-  // languages: codes for <lang>. O(bytes).
+  // Writes `text` with its cues. What does not fit is cut; elements are closed all the same.
+  // O(bytes).
   void write(const Programme& programme, const Utterable& text);
   std::string_view text() const { return {text_.begin(), text_.size()}; }
   // Byte of the plain text for a byte of text(); inside a tag: where the tag stands. O(log tags).
@@ -19,10 +19,10 @@ class Ssml {
     std::uint32_t ssml = 0, plain = 0;
   };
   void put(std::string_view piece);
-  void put_tag(std::string_view piece, std::size_t plain_at);
-  void put_cue(const Programme& programme, const Cue& cue, std::size_t plain_at);
+  void anchor(std::size_t plain_at);
+  void put_cue(const Programme& programme, const Cue& cue);
 
-  FixedVector<char, 2 * kMaxTextBytes> text_;
+  FixedVector<char, kMaxSpeechBytes> text_;
   FixedVector<Anchor, 1024> anchors_;
   bool emphasis_ = false, language_ = false, spell_ = false;
 };

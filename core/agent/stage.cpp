@@ -118,7 +118,7 @@ void Stage::direct(float dt_s, const Intentions& will) {
   clock_s_ += dt_s;
   switch (phase_) {
     case Phase::away:
-      if (will.pressed || clock_s_ > kAway_s) enter();
+      if (will.pressed || (clock_s_ > kAway_s && !will.asleep)) enter();
       if (will.pressed) come_here();
       break;
     case Phase::entering:
@@ -128,7 +128,7 @@ void Stage::direct(float dt_s, const Intentions& will) {
       break;
     case Phase::present:
       if (will.busy) clock_s_ = 0.0f;
-      if (setup_.walks && clock_s_ > kSleep_s) leave();
+      if (setup_.walks && (clock_s_ > kSleep_s || (will.asleep && !will.busy))) leave();
       break;
     case Phase::leaving:
       if (will.pressed) {
@@ -147,6 +147,8 @@ void Stage::direct(float dt_s, const Intentions& will) {
 
 // Small signs with the feelings that have one; the hands stay down, the camera is near.
 void Stage::gesture(const Intentions& will) {
+  if (will.gesture != body::GestureKind::none)
+    gestures_.start({.kind = will.gesture, .target_m = setup_.points_at_m});
   if (will.emotion == gestured_) return;
   gestured_ = will.emotion;
   if (gestured_ == emotion::Emotion::joy)

@@ -107,10 +107,8 @@ void compose(benchmark::State& state) {
 BENCHMARK(compose)->Name("frame/draw_list")->Unit(benchmark::kMicrosecond);
 
 void agent_step(benchmark::State& state) {
-  agent::Programme programme;
-  (void)programme.buttons.push({});
-  agent::Agent agent(&programme, 1);
-  for (auto _ : state) benchmark::DoNotOptimize(agent.step(1.0f / 30.0f, {}));
+  agent::Agent agent(1);
+  for (auto _ : state) benchmark::DoNotOptimize(agent.step(1.0f / 30.0f));
 }
 BENCHMARK(agent_step)->Name("frame/agent_step")->Unit(benchmark::kMicrosecond);
 

@@ -22,18 +22,6 @@ constexpr float kFrame_s = 1.0f / 30.0f;
 constexpr int kFrames = 1800;
 constexpr int kPressEvery = 70;  // Frames: through onset, apex and into offset.
 
-agent::Programme all_emotions() {
-  agent::Programme programme;
-  for (std::size_t i = 0; i < emotion::kEmotionCount; ++i) {
-    const auto name = emotion::kEmotionNames[i];
-    const FixedString<31> text(std::span<const char>(name.data(), name.size()));
-    [[maybe_unused]] const bool fits =
-        programme.buttons.push({text, static_cast<emotion::Emotion>(i)});
-    assert(fits);
-  }
-  return programme;
-}
-
 struct Hashes {
   std::uint64_t trig = kHashSeed, face = kHashSeed, body = kHashSeed, pose = kHashSeed;
   friend bool operator==(const Hashes&, const Hashes&) = default;
@@ -50,21 +38,21 @@ std::uint64_t hash_of_trig() {
 }
 
 Hashes live_a_minute() {
-  const agent::Programme programme = all_emotions();
   face::FapLimits limits;
   limits.low.fill(-2000.0f);
   limits.high.fill(2000.0f);
   const body::Skeleton skeleton = body::upright_skeleton();
-  agent::Agent agent(&programme, 2026);
+  agent::Agent agent(2026);
   std::array<Affine, body::kHanimJointCount> pose;
   Hashes hashes;
   hashes.trig = hash_of_trig();
   for (int frame = 0; frame < kFrames; ++frame) {
-    const auto button =
-        static_cast<std::uint16_t>(frame / kPressEvery % static_cast<int>(emotion::kEmotionCount));
-    const ButtonEvent press{static_cast<std::uint16_t>(button + 1), true, 0};
-    const std::size_t presses = frame % kPressEvery == 20 ? 1 : 0;
-    const agent::Intentions& will = agent.step(kFrame_s, std::span(&press, presses));
+    if (frame % kPressEvery == 20) {
+      agent.press();
+      agent.feel(static_cast<emotion::Emotion>(frame / kPressEvery %
+                                               static_cast<int>(emotion::kEmotionCount)));
+    }
+    const agent::Intentions& will = agent.step(kFrame_s);
     const face::FapFrame felt = emotion::expression(will.emotions);
     face::MixJob mix;
     mix.emotion = &felt;

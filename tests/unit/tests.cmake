@@ -41,6 +41,7 @@ add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/confi
   ${CMAKE_SOURCE_DIR}/firmware-app/config.cpp ${CMAKE_SOURCE_DIR}/firmware-app/config_devices.cpp)
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
+caryatid_unit(firmware-app/texts caryatid_texts)
 caryatid_unit(platform/render caryatid_render)
 foreach(room watchdog thermal control files inventory)
   caryatid_unit(platform/${room} caryatid_board)
