@@ -60,11 +60,10 @@ const agent::Guidance& Desk::step(float dt_s, std::span<const ButtonEvent> event
   const agent::Guidance& g = guide_.step(dt_s, events, now, speaking);
   if (g.says) {
     const agent::Line* line = programme().line(g.say, g.language);
-    if (line != nullptr)
+    if (line != nullptr) {
       agent::expand(programme(), *line, now, &said_);
-    else
-      said_.clear();  // Nothing is written for this page: silence.
-    ssml_.write(programme(), said_);
+      ssml_.write(programme(), said_);
+    }
   }
   return g;
 }

@@ -37,6 +37,7 @@ class Compiler {
     add_values(reader.hours());
     builder_.text_count = static_cast<std::uint32_t>(reader.texts().size());
     for (const TextUse& use : reader.texts()) add_text(use, file, reader.constants());
+    forget_absent_texts();
     say_what_is_missing();
     out_.block = builder_.write(font_crc_);
     if (out_.block.size() <= kMaxProgrammeBytes) return;
@@ -162,6 +163,21 @@ class Compiler {
                              "; a box is shown: choose other letters or bake another font");
     }
     return builder_.line(parsed, shaped, static_cast<std::uint16_t>(language));
+  }
+
+  // Texts by convention that nobody wrote: nothing refers to them any more.
+  void forget_absent_texts() {
+    const auto mend = [this](std::uint16_t* text) {
+      if (*text != agent::kNone && builder_.lines[*text * tables_.size()].is_there == 0)
+        *text = agent::kNone;
+    };
+    for (agent::Page& p : builder_.pages)
+      for (std::uint16_t* text : {&p.title, &p.body, &p.enter.say}) mend(text);
+    for (agent::Choice& c : builder_.choices)
+      for (std::uint16_t* text : {&c.label, &c.action.say}) mend(text);
+    for (agent::ButtonRecord& b : builder_.buttons) mend(&b.action.say);
+    for (agent::PictureRecord& p : builder_.pictures) mend(&p.alternative);
+    mend(&builder_.attract.action.say);
   }
 
   // One line a language.

@@ -43,7 +43,8 @@ TEST_P(Picture, LooksAsItWasSeen) {
   const auto script =
       write_file(folder / "script", "0 " + emotion + " down\n0.3 " + emotion + " down\n");
   const Outcome run =
-      run_program("--pack " + kBuiltin +
+      run_program("--pack " + kBuiltin + " --config " + kSource +
+                  "/assets/programme/feelings.toml"
                   " --display surfaceless --size 240x240 --lod 100000"
                   " --virtual-clock --duration 1.01 --frames-every 30 --frames-out " +
                   folder.string() + " --script " + script.string());
