@@ -184,7 +184,7 @@ struct Programme {
   std::span<const Cue> cues;
   std::span<const Value> values;
 
-  std::string_view text(Ref ref) const { return bytes.substr(ref.first, ref.count); }
+  std::string_view text(Ref ref) const { return {bytes.data() + ref.first, ref.count}; }
   // nullptr for kNone and for a text that is in no language.
   const Line* line(std::uint16_t text_index, std::uint16_t language) const {
     if (text_index == kNone) return nullptr;
