@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Debian packages for boards: caryatid, caryatid-data, caryatid-tools.
+# Debian packages for boards: caryatid, caryatid-data, caryatid-voice, caryatid-tools.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -38,7 +38,7 @@ package_of() {
     libgbm.so.1) echo "libgbm1 (>= 17.1.0)" ;;
     libdrm.so.2) echo "libdrm2 (>= 2.4.100)" ;;
     libasound.so.2) [ "$release" = bookworm ] && echo "libasound2 (>= 1.1)" || echo libasound2t64 ;;
-    libespeak-ng.so.1) echo libespeak-ng1 ;;
+    libespeak-ng.so.1) echo "libespeak-ng1 (>= 1.49.2)" ;;
     libpng16.so.16) [ "$release" = bookworm ] && echo libpng16-16 || echo libpng16-16t64 ;;
     libfreetype.so.6) echo libfreetype6 ;;
     libharfbuzz.so.0) echo libharfbuzz0b ;;
@@ -75,6 +75,7 @@ make_manuals() {
   manuals=$PWD/build/packages/manuals
   mkdir -p "$manuals"
   manual caryatid "information-kiosk agent" build/host-release/bin/caryatid
+  manual caryatid-voice "voice of the kiosk agent" build/host-release/bin/caryatid-voice
   manual caryatid-tool "content tools of the kiosk agent" build/host-release/bin/caryatid-tool
   version=$(sed -n 's/^project(caryatid VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
   when=$(git log -1 --format=%ct 2>/dev/null || echo 0)
@@ -100,6 +101,7 @@ main() {
   cmake -B "$folder" -DCARYATID_PACKS="$PWD/build/host-release/packs" \
     -DCARYATID_MANUALS="$manuals" -DCARYATID_DEBIAN_ARCHITECTURE="$arch" \
     -DCARYATID_DEPENDS="$(depends_of "$folder/bin/caryatid")" \
+    -DCARYATID_VOICE_DEPENDS="$(depends_of "$folder/bin/caryatid-voice")" \
     -DCARYATID_TOOL_DEPENDS="$(depends_of "$folder/bin/caryatid-tool")" >"$folder.log" 2>&1 ||
     fail "configuring failed; $folder.log says why"
   mkdir -p "$out"
@@ -107,8 +109,7 @@ main() {
   cpack --config "$folder/CPackConfig.cmake" -B "$out" >"$folder.cpack.log" 2>&1 ||
     { tail -n 20 "$folder.cpack.log" >&2; fail "packing failed"; }
   rm -rf "$out/_CPack_Packages"
-  check_packages "$out"/caryatid_*_"$arch".deb "$out"/caryatid-tools_*_"$arch".deb \
-    "$out"/caryatid-data_*_all.deb
+  check_packages "$out"/caryatid{,-voice,-tools}_*_"$arch".deb "$out"/caryatid-data_*_all.deb
   ls -l "$out"/*.deb | awk '{printf "caryatid: %8.1f KiB  %s\n", $5 / 1024, $9}'
 }
 

@@ -1,6 +1,7 @@
-# What `cmake --install` puts where, and the three Debian packages that CPack makes of it:
+# What `cmake --install` puts where, and the Debian packages that CPack makes of it:
 #   caryatid        the agent, its service, udev rules, user and default programme
 #   caryatid-data   the baked characters (any architecture)
+#   caryatid-voice  speech through espeak-ng, a program of its own because that is GPL-3+
 #   caryatid-tools  caryatid-tool, for those who make content
 # cross/package.sh builds them: it knows packs, manual pages and dependencies, which are not here.
 include(GNUInstallDirs)
@@ -23,12 +24,18 @@ if(CARYATID_PACKS)
     DESTINATION share/caryatid COMPONENT caryatid-data)
 endif()
 set(package_components caryatid caryatid-data)
+if(TARGET caryatid-voice)
+  install(TARGETS caryatid-voice RUNTIME COMPONENT caryatid-voice)
+  list(APPEND package_components caryatid-voice)
+endif()
 if(TARGET caryatid-tool)
   install(TARGETS caryatid-tool RUNTIME COMPONENT caryatid-tools)
   list(APPEND package_components caryatid-tools)
 endif()
 if(CARYATID_MANUALS)
   install(FILES ${CARYATID_MANUALS}/caryatid.1.gz DESTINATION share/man/man1 COMPONENT caryatid)
+  install(FILES ${CARYATID_MANUALS}/caryatid-voice.1.gz DESTINATION share/man/man1
+    COMPONENT caryatid-voice)
   install(FILES ${CARYATID_MANUALS}/caryatid-tool.1.gz DESTINATION share/man/man1
     COMPONENT caryatid-tools)
   foreach(package ${package_components})
@@ -65,7 +72,7 @@ foreach(package ${package_components})
   set(CPACK_DEBIAN_${component}_PACKAGE_NAME ${package})
 endforeach()
 set(CPACK_DEBIAN_CARYATID_PACKAGE_DEPENDS "${CARYATID_DEPENDS}")
-set(CPACK_DEBIAN_CARYATID_PACKAGE_RECOMMENDS "caryatid-data, libgl1-mesa-dri, espeak-ng-data")
+set(CPACK_DEBIAN_CARYATID_PACKAGE_RECOMMENDS "caryatid-data, caryatid-voice, libgl1-mesa-dri")
 set(CPACK_DEBIAN_CARYATID_PACKAGE_CONTROL_EXTRA
   ${CMAKE_SOURCE_DIR}/cross/debian/postinst ${CMAKE_SOURCE_DIR}/cross/debian/postrm
   ${CMAKE_BINARY_DIR}/debian/conffiles)
@@ -81,6 +88,11 @@ set(CPACK_COMPONENT_CARYATID-DATA_DESCRIPTION
   "characters of the Caryatid information-kiosk agent
  A woman and a man: progressive meshes, textures, and tables of MPEG-4 face and
  body animation, baked from the MakeHuman base human (CC0).")
+set(CPACK_DEBIAN_CARYATID-VOICE_PACKAGE_DEPENDS "${CARYATID_VOICE_DEPENDS}")
+set(CPACK_COMPONENT_CARYATID-VOICE_DESCRIPTION
+  "voice of the Caryatid information-kiosk agent
+ Speaks the kiosk's texts through espeak-ng and tells when which sound and word
+ comes, over a socket. Linked with espeak-ng, so under GPL-3+ as a whole.")
 set(CPACK_DEBIAN_CARYATID-TOOLS_PACKAGE_DEPENDS "${CARYATID_TOOL_DEPENDS}")
 set(CPACK_COMPONENT_CARYATID-TOOLS_DESCRIPTION
   "content tools of the Caryatid information-kiosk agent

@@ -267,9 +267,24 @@ class Program {
 
 Program* Program::self = nullptr;
 
+constexpr char kUsage[] =
+    R"(caryatid-voice: speaks for caryatid, which starts it. Not for use by hand.
+
+Requests come in, sound and its events go out over the socket on standard input, in the frames that
+platform/voice/wire.h describes. Linked with espeak-ng, this program is under the GNU General Public
+Licence, version 3 or later.
+
+example: caryatid --voice /usr/bin/caryatid-voice --say "Welcome!"
+)";
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) {
+    const bool asked = std::strcmp(argv[1], "--help") == 0;
+    std::fputs(kUsage, asked ? stdout : stderr);
+    return asked ? 0 : 2;
+  }
   static Program program;
   if (!program.start()) {
     std::fputs("caryatid-voice: espeak-ng finds no data; install espeak-ng-data\n", stderr);
