@@ -1,7 +1,6 @@
 // The kiosk's side of speech: the speaker, and what face, body and eyes do with it.
-#include <cstdio>
-
 #include "firmware-app/kiosk.h"
+#include "platform/log/log.h"
 
 namespace caryatid::app {
 
@@ -12,7 +11,8 @@ void Kiosk::open_speaker() {
                                .voice = options_.voice,
                                .lockstep = options_.virtual_clock,
                                .seed = options_.seed};
-  if (!speaker_.open(options, &error)) std::fprintf(stderr, "caryatid: %s\n", error.c_str());
+  if (!speaker_.open(options, &error))
+    platform::log(platform::Event::speech_trouble, "%s", error.c_str());
   if (!options_.say.empty()) speaker_.say(options_.say, {.language = options_.language});
 }
 
@@ -21,7 +21,8 @@ const SpeechFrame& Kiosk::speak(const Tick& tick) {
   const bool said_nothing = *speaker_.trouble() == '\0';
   const SpeechFrame& spoken = speaker_.step(tick.time_s);
   if (said_nothing && *speaker_.trouble() != '\0')
-    std::fprintf(stderr, "caryatid: speech: %s (captions go on)\n", speaker_.trouble());
+    platform::log(platform::Event::speech_trouble, "speech: %s (captions go on)",
+                  speaker_.trouble());
   if (spoken.blink) agent_->blink();
   return spoken;
 }

@@ -1,6 +1,6 @@
 #include "firmware-app/panel.h"
 
-#include <cstdio>
+#include "platform/log/log.h"
 
 namespace caryatid::app {
 
@@ -29,8 +29,8 @@ void Panel::poll_source(Source& source, std::int64_t now_us) {
   raw_.clear();
   const bool lost = source.buttons->poll(now_us, raw_).code == Code::device_lost;
   if (lost != source.lost)
-    std::fprintf(stderr, "caryatid: %s is %s\n", source.name,
-                 lost ? "not there; waiting for it" : "there");
+    platform::log(lost ? platform::Event::button_lost : platform::Event::button_found, "%s is %s",
+                  source.name, lost ? "not there; waiting for it" : "there");
   source.lost = lost;
   for (const ButtonEvent& event : raw_) (void)debouncer_.feed(event, &signals_);
 }

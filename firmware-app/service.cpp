@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "platform/log/log.h"
+
 namespace caryatid::app {
 namespace {
 
@@ -44,8 +46,8 @@ bool Service::open(const Options& options, std::string* out_error) {
     }
     const std::string text = read_small(state_path_);
     if (!text.empty() && !parse_state(text, &state_))
-      std::fprintf(stderr, "caryatid: %s: damaged; starting with a fresh one\n",
-                   state_path_.c_str());
+      platform::log(platform::Event::state_refused, "%s: damaged; starting with a fresh one",
+                    state_path_.c_str());
   }
   if (!ok) {
     *out_error = "--status, --prometheus or --state: a path is too long; name shorter ones";
@@ -71,8 +73,8 @@ void Service::put(std::size_t file, std::string_view content, const char* name) 
   if (file == kNone) return;
   const Status status = writer_.put(file, content);
   if (!status.ok() && !told_[file])
-    std::fprintf(stderr, "caryatid: %s: %s; the kiosk goes on without it\n", name,
-                 std::strerror(status.detail));
+    platform::log(platform::Event::file_refused, "%s: %s; the kiosk goes on without it", name,
+                  std::strerror(status.detail));
   told_[file] = !status.ok();
 }
 

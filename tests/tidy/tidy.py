@@ -38,7 +38,7 @@ CORE_STD = set(
     "array span concepts new cstddef cstdint limits type_traits utility optional algorithm cmath "
     "cstring atomic bit cassert compare string_view arm_neon.h".split())
 PLATFORM_ROOMS = set(
-    "display render buttons audio voice clock watchdog thermal files control inventory".split())
+    "display render buttons audio voice clock watchdog thermal files control inventory log".split())
 # What a folder may include beside itself.
 FOLDER_ARROWS = {
     "platform": {"core"},
@@ -50,7 +50,7 @@ FOLDER_ARROWS = {
         "core", "platform", "firmware-app", "assets/bake", "assets/fit", "assets/tool", "tests"},
 }
 # Between rooms of platform: voice plays through audio, a window display has keys; every room may
-# read the clock.
+# read the clock and log.
 PLATFORM_ARROWS = {"voice": {"audio"}, "display": {"buttons"}}
 
 FORBIDDEN_SYMBOL = re.compile(
@@ -118,7 +118,8 @@ def wrong_platform(source, target):
         if room.removesuffix(".h") not in PLATFORM_ROOMS:
             return f"platform/{room} is not a room of platform"
     own, other = own.removesuffix(".h"), other.removesuffix(".h")
-    if own != other and other != "clock" and other not in PLATFORM_ARROWS.get(own, set()):
+    arrows = PLATFORM_ARROWS.get(own, set()) | {own, "clock", "log"}
+    if other not in arrows:
         return f"platform/{own} must not include platform/{other}"
     if own == other and len(source) > 3 and len(target) > 3 and source[2] != target[2]:
         return f"backend {own}/{source[2]} must not include backend {other}/{target[2]}"

@@ -43,7 +43,7 @@ target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
 caryatid_unit(firmware-app/texts caryatid_texts)
 caryatid_unit(platform/render caryatid_render)
-foreach(room watchdog thermal control files inventory)
+foreach(room watchdog thermal control files inventory log)
   caryatid_unit(platform/${room} caryatid_board)
 endforeach()
 # The service's hardening must not decay: systemd rates its exposure from 0 (safe) to 10.
