@@ -72,7 +72,10 @@ build() {
   install_packages
   make_sysroot
   say "building for $arch, Debian $release"
-  cmake --preset "$preset" -B "$folder" -DCARYATID_SYSROOT="$sysroot" "${@:4}" \
+  local fresh=()  # Libraries that were found in another sysroot must not stay.
+  grep -qxF "CARYATID_SYSROOT:UNINITIALIZED=$sysroot" "$folder/CMakeCache.txt" 2>/dev/null ||
+    fresh=(--fresh)
+  cmake --preset "$preset" "${fresh[@]}" -B "$folder" -DCARYATID_SYSROOT="$sysroot" "${@:4}" \
     >"$folder.log" 2>&1 ||
     { tail -n 40 "$folder.log" >&2; fail "configuring failed"; }
   ninja -C "$folder" --quiet || fail "building failed"
