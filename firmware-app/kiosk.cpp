@@ -419,6 +419,7 @@ bool Kiosk::draw(const Tick& tick) {
   job.pack = &person_.view();
   job.meshes = person_.meshes();
   job.joints = person_.joints();
+  job.wrinkles = person_.wrinkles();
   job.camera = list_.camera;
   if (stage_) job.feet_m = {stage_->walker().place().x, 0.0f, stage_->walker().place().y};
   if (!fixed_) {

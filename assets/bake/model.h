@@ -69,6 +69,7 @@ struct Image {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
   bool has_alpha = false;
+  bool is_data = false;  // Numbers in four channels of their own, not a colour that alpha weighs.
 };
 
 struct Joint {

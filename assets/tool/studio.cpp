@@ -90,6 +90,7 @@ Picture Studio::picture(const Pose& pose) {
   job.pack = &person_->view();
   job.meshes = person_->meshes();
   job.joints = person_->joints();
+  job.wrinkles = person_->wrinkles();
   job.camera = scene::make_camera(pose.framing ? *pose.framing : scene::framing(pose.view, subject),
                                   static_cast<float>(width_) / static_cast<float>(height_));
   if (!job.run(list_.get()).ok())

@@ -142,6 +142,7 @@ void Person::show(const face::FapFrame& faps, const body::BapFrame& baps, const 
   for (std::size_t o = 0; o < object_count(); ++o) parts_[o].mesh.advance(dt_s);
   pose(faps, baps, place);
   deform(faps);
+  wrinkles_ = face::wrinkles_of(faps);
   refresh_views();
 }
 

@@ -11,6 +11,7 @@
 #include "core/body/pose.h"
 #include "core/face/fat.h"
 #include "core/face/transforms.h"
+#include "core/face/wrinkles.h"
 #include "core/mesh/progressive.h"
 #include "core/pack/loader.h"
 #include "core/scene/draw_list.h"
@@ -49,6 +50,7 @@ class Person {
   // What to draw. Valid until the next call that changes the person.
   std::span<const scene::MeshView> meshes() const { return {mesh_views_.data(), object_count()}; }
   std::span<const Affine> joints() const { return {joints_.data(), view_.joints.size()}; }
+  const face::Wrinkles& wrinkles() const { return wrinkles_; }
   // Ranges that changed since the last call, one patch for every object that did.
   void collect_patches(FixedVector<scene::MeshPatch, kMaxObjects>* out);
 
@@ -91,6 +93,7 @@ class Person {
   face::FapLimits limits_;
   face::FapFrame rest_face_;
   face::TransformGeometry geometry_;
+  face::Wrinkles wrinkles_;
   std::uint32_t deformed_ = 0;
   std::uint32_t records_ = 0;
 };

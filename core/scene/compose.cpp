@@ -94,6 +94,7 @@ Status ComposeJob::run(DrawList* out) const {
   out->camera = camera;
   out->shading = shading;
   out->render_scale = render_scale;
+  out->wrinkles = wrinkles;
   out->meshes = meshes;
   light(out);
   cast_shadows(*this, out);

@@ -18,7 +18,8 @@ struct ComposeJob {
   Camera camera;
   Shading shading = Shading::per_pixel;
   float render_scale = 1.0f;
-  Vec3 feet_m{0};  // Between the feet; y of the floor.
+  face::Wrinkles wrinkles;  // Of the face that the meshes show.
+  Vec3 feet_m{0};           // Between the feet; y of the floor.
 
   // Fills everything of the list but `patches`. Items come opaque front to back, then lashes and
   // brows, then hair, then corneas. invalid_argument: no pack, or spans that do not match it.

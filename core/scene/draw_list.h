@@ -7,6 +7,7 @@
 #include "core/base/fixed.h"
 #include "core/base/limits.h"
 #include "core/base/vec.h"
+#include "core/face/wrinkles.h"
 #include "core/mesh/vertex.h"
 
 namespace caryatid::scene {
@@ -68,6 +69,7 @@ struct DrawList {
   Vec3 background_top{0.0f}, background_bottom{0.0f};  // Linear.
   float render_scale = 1.0f;  // Of the display's width and height, 0.25..1.
   Shading shading = Shading::per_pixel;
+  face::Wrinkles wrinkles;  // Of skin that has a detail texture; the cheapest shading leaves them.
   FixedVector<FloorShadow, 4> floor_shadows;
   std::span<const MeshView> meshes;  // By object index.
   FixedVector<MeshPatch, kMaxObjects> patches;

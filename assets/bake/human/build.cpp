@@ -15,6 +15,7 @@
 #include "assets/bake/texture/eye.h"
 #include "assets/bake/texture/head_skin.h"
 #include "assets/bake/texture/image.h"
+#include "assets/bake/texture/teeth.h"
 #include "core/body/hanim.h"
 
 namespace caryatid::bake {
@@ -125,8 +126,10 @@ class Builder {
       pack::Material material = out_.materials[object.material];
       std::vector<Vec3> border_m;
       for (const std::uint32_t v : object.locked) border_m.push_back(object.mesh.position_m[v]);
-      material.texture = add_image(
-          paint_head(out_, recipe_.skin, out_.images[material.texture], border_m, object.mesh));
+      HeadImages images =
+          paint_head(out_, recipe_.skin, out_.images[material.texture], border_m, object.mesh);
+      material.texture = add_image(std::move(images.skin));
+      material.detail = add_image(std::move(images.lines));
       out_.materials.push_back(material);
       object.material = static_cast<std::uint32_t>(out_.materials.size() - 1);
     }
@@ -200,6 +203,7 @@ class Builder {
       const float grey = glm::dot(Vec3{t}, Vec3{0.2126f, 0.7152f, 0.0722f});
       t = Vec4{glm::mix(Vec3{grey}, Vec3{t}, part.recipe.saturation) * part.recipe.tint, t.w};
     }
+    if (kind == "teeth") paint_teeth(image);
     if (kind == "eyes") paint_eyes(recipe_.eyes.iris, image);
     if (kind == "eyebrows") thin_heads(part.proxy, part.position_m, image);
     if (hairs) bleed_alpha(image, 0.02f);

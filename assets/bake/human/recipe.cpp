@@ -52,7 +52,7 @@ Macro read_macro(const toml::table& t) {
 
 SkinRecipe read_skin(const toml::table& t) {
   expect_keys(t, {"texture", "tint", "lips", "lips_strength", "stubble", "lash_line", "eye_shadow",
-                  "blush", "hairline_m", "tights"});
+                  "blush", "hairline_m", "lines", "tights"});
   SkinRecipe s;
   s.texture = text(t, "texture");
   s.tint = triple(t, "tint", s.tint);
@@ -63,6 +63,7 @@ SkinRecipe read_skin(const toml::table& t) {
   s.eye_shadow = number(t, "eye_shadow", s.eye_shadow);
   s.blush = number(t, "blush", s.blush);
   s.tights = triple(t, "tights", s.tights);
+  s.lines = number(t, "lines", s.lines);
   s.hairline_m = number(t, "hairline_m", s.hairline_m);
   return s;
 }

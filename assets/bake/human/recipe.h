@@ -31,6 +31,7 @@ struct SkinRecipe {
   float eye_shadow = 0.0f;
   float blush = 0.15f;
   float hairline_m = 0.010f;  // How far the short hairs of the hairline reach.
+  float lines = 1.0f;         // Depth of the lines that expressions fold; 1: middle age.
   Vec3 tights{-1.0f};         // Multiplies the legs' skin, linear; negative: bare legs.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 #include "assets/bake/light/ray_tree.h"
@@ -13,6 +14,7 @@ constexpr int kRays = 96;
 constexpr float kReach_m = 0.25f;     // Beyond it light comes round anyway.
 constexpr float kLift_m = 0.0008f;    // Off the own surface.
 constexpr float kDeepest = 0.88f;     // Skin in the closed mouth or nostrils.
+constexpr float kMouth_m = 0.040f;    // From the front teeth to where the mouth is dark.
 constexpr float kHairOpacity = 0.6f;  // Strands let light through.
 
 bool stays_open(pack::ObjectRole role) {
@@ -83,20 +85,40 @@ float hidden_share(const RayTree& tree, const std::vector<Vec3>& directions, Vec
   return sum / static_cast<float>(directions.size());
 }
 
-// Depth behind the front teeth, from a little shade at the front to dark at the molars.
-void shade_mouth(Character& c) {
-  float front_m = -1e9f;
-  for (const Object& o : c.objects)
-    if (o.role == pack::ObjectRole::mouth)
-      for (const Vec3& p : o.mesh.position_m) front_m = std::max(front_m, p.z);
-  for (Object& o : c.objects) {
-    if (o.role != pack::ObjectRole::mouth) continue;
-    o.mesh.occlusion.resize(o.mesh.position_m.size());
-    for (std::size_t v = 0; v < o.mesh.position_m.size(); ++v) {
-      const float depth = (front_m - o.mesh.position_m[v].z - 0.004f) / 0.032f;
-      o.mesh.occlusion[v] = 0.22f + 0.68f * std::clamp(depth, 0.0f, 1.0f);
-    }
+// Where teeth and tongue are.
+struct Mouth {
+  Vec3 low{1e9f}, high{-1e9f};
+
+  explicit Mouth(const Character& c) {
+    for (const Object& o : c.objects)
+      if (o.role == pack::ObjectRole::mouth)
+        for (const Vec3& p : o.mesh.position_m) low = glm::min(low, p), high = glm::max(high, p);
   }
+  bool has(Vec3 p) const {
+    constexpr Vec3 kMargin{0.006f, 0.010f, 0.004f};
+    return glm::all(glm::greaterThan(p, low - kMargin)) &&
+           glm::all(glm::lessThan(p, high + kMargin));
+  }
+  // Open at the front teeth, dark at the molars, smoothly between.
+  float shade(Vec3 p) const {
+    const float depth = std::clamp((high.z - p.z) / kMouth_m, 0.0f, 1.0f);
+    return 0.06f + 0.84f * depth * depth * (3.0f - 2.0f * depth);
+  }
+};
+
+// Shaded by depth, as if the mouth were open: teeth, tongue, and the lining, which rays at rest
+// find in the dark right behind the lips.
+void shade_mouth(Character& c) {
+  constexpr float kClosed = 0.7f;
+  const Mouth mouth(c);
+  for (Object& o : c.objects)
+    for (std::size_t v = 0; v < o.mesh.position_m.size(); ++v) {
+      const Vec3 p = o.mesh.position_m[v];
+      float& occlusion = o.mesh.occlusion[v];
+      if (o.role == pack::ObjectRole::mouth) occlusion = mouth.shade(p);
+      if (o.role == pack::ObjectRole::head && occlusion > kClosed && mouth.has(p))
+        occlusion = std::max(mouth.shade(p), 0.45f);
+    }
 }
 
 }  // namespace

@@ -17,14 +17,16 @@ float to_srgb(float l) {
 
 struct Level {
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec4> texels;  // Linear light, colour not premultiplied.
+  bool is_data = false;
+  std::vector<Vec4> texels;  // Linear light, colour not premultiplied; or plain numbers.
 };
 
 Level from_image(const Image& image) {
   std::array<float, 256> linear;
   for (std::size_t i = 0; i < linear.size(); ++i)
-    linear[i] = to_linear(static_cast<float>(i) / 255.0f);
-  Level out{image.width, image.height, {}};
+    linear[i] =
+        image.is_data ? static_cast<float>(i) / 255.0f : to_linear(static_cast<float>(i) / 255.0f);
+  Level out{image.width, image.height, image.is_data, {}};
   out.texels.resize(std::size_t{image.width} * image.height);
   for (std::size_t i = 0; i < out.texels.size(); ++i) {
     const std::uint8_t* p = &image.rgba[4 * i];
@@ -34,7 +36,7 @@ Level from_image(const Image& image) {
 }
 
 Level half(const Level& in) {
-  Level out{std::max(in.width / 2, 1u), std::max(in.height / 2, 1u), {}};
+  Level out{std::max(in.width / 2, 1u), std::max(in.height / 2, 1u), in.is_data, {}};
   out.texels.resize(std::size_t{out.width} * out.height);
   for (std::uint32_t y = 0; y < out.height; ++y)
     for (std::uint32_t x = 0; x < out.width; ++x) {
@@ -48,7 +50,7 @@ Level half(const Level& in) {
         plain += Vec3(s);
         alpha += s.w;
       }
-      const Vec3 color = alpha > 1e-4f ? weighted / alpha : 0.25f * plain;
+      const Vec3 color = alpha > 1e-4f && !in.is_data ? weighted / alpha : 0.25f * plain;
       out.texels[std::size_t{y} * out.width + x] = Vec4(color, 0.25f * alpha);
     }
   return out;
@@ -66,7 +68,8 @@ void append_quantised(const Level& level, const std::array<int, 4>& bits,
     for (std::uint32_t i = 0; i < w; ++i) {
       const std::uint32_t x = rightwards ? i : w - 1 - i;
       const Vec4& l = level.texels[std::size_t{y} * w + x];
-      const Vec4 wanted = Vec4{to_srgb(l.x), to_srgb(l.y), to_srgb(l.z), l.w} + error[x + 1];
+      const Vec4 coded = level.is_data ? l : Vec4{to_srgb(l.x), to_srgb(l.y), to_srgb(l.z), l.w};
+      const Vec4 wanted = coded + error[x + 1];
       std::uint32_t texel = 0;
       Vec4 rest{0};
       for (int c = 0; c < 4; ++c) {

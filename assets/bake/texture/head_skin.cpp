@@ -10,12 +10,14 @@
 
 #include "assets/bake/texture/atlas.h"
 #include "assets/bake/texture/hairline.h"
+#include "assets/bake/texture/wrinkles.h"
 
 namespace caryatid::bake {
 namespace {
 
-constexpr std::uint32_t kSide = 1024;
+constexpr std::uint32_t kSide = 1024, kLinesSide = 512;
 constexpr float kMillimetre = 0.001f;
+constexpr Vec3 kMucosa{0.42f, 0.145f, 0.13f};  // The mouth's lining, linear.
 
 // A monotone map of an interval to 0..1 that gives [low, high] the share `room`.
 struct Stretch {
@@ -99,7 +101,7 @@ class Painter {
   }
 
   Vec3 paint(const SkinPoint& p, Vec3 skin) const {
-    if (!p.is_outer) return skin;
+    if (!p.is_outer) return p.position_m.y < at(9, 15).y ? kMucosa : skin;
     float to_border_m = 1.0f;
     for (const Vec3& b : border_m_)
       to_border_m = std::min(to_border_m, glm::length(b - p.position_m));
@@ -255,10 +257,11 @@ std::vector<bool> outer_vertices(const Mesh& head, const std::vector<Vec3>& bord
   return out;
 }
 
-SkinMap map_of(const Mesh& head, const std::vector<Vec2>& old_uv, const std::vector<bool>& outer) {
-  SkinMap out{kSide, std::vector<SkinPoint>(std::size_t{kSide} * kSide)};
+SkinMap map_of(const Mesh& head, const std::vector<Vec2>& old_uv, const std::vector<bool>& outer,
+               std::uint32_t side) {
+  SkinMap out{side, std::vector<SkinPoint>(std::size_t{side} * side)};
   for (const auto& t : head.triangles)
-    for_texels(kSide, head.uv[t[0]], head.uv[t[1]], head.uv[t[2]],
+    for_texels(side, head.uv[t[0]], head.uv[t[1]], head.uv[t[2]],
                [&](std::uint32_t x, std::uint32_t y, Vec3 w) {
                  SkinPoint p;
                  for (int k = 0; k < 3; ++k) {
@@ -269,15 +272,15 @@ SkinMap map_of(const Mesh& head, const std::vector<Vec2>& old_uv, const std::vec
                  }
                  p.is_outer = outer[t[0]];
                  p.there = true;
-                 out.point[std::size_t{y} * kSide + x] = p;
+                 out.point[std::size_t{y} * side + x] = p;
                });
   return out;
 }
 
 }  // namespace
 
-Image paint_head(const Character& character, const SkinRecipe& recipe, const Image& skin,
-                 const std::vector<Vec3>& border_m, Mesh& head) {
+HeadImages paint_head(const Character& character, const SkinRecipe& recipe, const Image& skin,
+                      const std::vector<Vec3>& border_m, Mesh& head) {
   const LinearImage source = to_linear(skin);
   const std::vector<Vec2> old_uv = head.uv;
   const auto uv_of = [&](int group, int index) {
@@ -289,7 +292,7 @@ Image paint_head(const Character& character, const SkinRecipe& recipe, const Ima
   const std::vector<bool> is_outer = outer_vertices(head, border_m);
 
   const Painter painter(character, recipe, border_m);
-  const SkinMap map = map_of(head, old_uv, is_outer);
+  const SkinMap map = map_of(head, old_uv, is_outer, kSide);
   LinearImage atlas(kSide, kSide, Vec4{0.0f});
   for (std::uint32_t y = 0; y < kSide; ++y)
     for (std::uint32_t x = 0; x < kSide; ++x) {
@@ -301,7 +304,8 @@ Image paint_head(const Character& character, const SkinRecipe& recipe, const Ima
   paint_hairline(character, map, recipe.hairline_m, atlas);
   bleed_alpha(atlas, 0.02f);
   for (Vec4& t : atlas.texel) t.w = 1.0f;
-  return to_srgb(atlas, character.name + "_head");
+  const SkinMap coarse = map_of(head, old_uv, is_outer, kLinesSide);
+  return {to_srgb(atlas, character.name + "_head"), draw_wrinkles(character, coarse, recipe.lines)};
 }
 
 }  // namespace caryatid::bake

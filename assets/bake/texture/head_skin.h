@@ -10,10 +10,15 @@
 
 namespace caryatid::bake {
 
-// Lays the head out anew (mesh.uv changes, vertices stay as they are) and paints its image. Needs
+struct HeadImages {
+  Image skin;
+  Image lines;  // Detail: see wrinkles.h. Half as large; the same layout.
+};
+
+// Lays the head out anew (mesh.uv changes, vertices stay as they are) and paints its images. Needs
 // the feature points, and the hair in place. `skin`: the texture that the old uv name. border_m:
 // the vertices that the head shares with other skin. 2-3 s.
-Image paint_head(const Character& character, const SkinRecipe& recipe, const Image& skin,
-                 const std::vector<Vec3>& border_m, Mesh& head);
+HeadImages paint_head(const Character& character, const SkinRecipe& recipe, const Image& skin,
+                      const std::vector<Vec3>& border_m, Mesh& head);
 
 }  // namespace caryatid::bake

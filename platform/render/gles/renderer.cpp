@@ -132,7 +132,7 @@ void GlesRenderer::use(Program& program, const scene::DrawList& list) {
 
 void GlesRenderer::draw_item(const scene::DrawList& list, const scene::DrawItem& item, Pass pass) {
   const pack::Material& material = pack_.materials[item.material];
-  Program& program = programs_.scene(material.kind, list.shading, pass);
+  Program& program = programs_.scene(material, list.shading, pass);
   if (program.name == 0) return;
   use(program, list);
   const auto bone_rows = static_cast<GLsizei>(3 * item.bone_count);
@@ -144,6 +144,13 @@ void GlesRenderer::draw_item(const scene::DrawList& list, const scene::DrawItem&
     glDisable(GL_CULL_FACE);
   else
     glEnable(GL_CULL_FACE);
+  if (program.wrinkles >= 0) {
+    glUniform4fv(program.wrinkles, 1, list.wrinkles.left.data());
+    glUniform4fv(program.wrinkles + 1, 1, list.wrinkles.right.data());
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, textures_.name(material.detail));
+    glActiveTexture(GL_TEXTURE0);
+  }
   glBindTexture(GL_TEXTURE_2D, textures_.name(material.texture));
   cost_.uploaded_bytes += meshes_[item.object].bind(frame_ % kBufferSets, list.meshes[item.object]);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * item.triangle_count), GL_UNSIGNED_SHORT,

@@ -1,8 +1,9 @@
 #pragma once
-// GLSL ES 1.00 text. Every scene shader starts with three defines from shaders.cpp:
+// GLSL ES 1.00 text. Every scene shader starts with four defines from shaders.cpp:
 //   KIND 0..5  as pack::MaterialKind: skin, eye, hair, cloth, mouth, lash
 //   TIER 0..2  as scene::Shading: cheapest, per vertex, per pixel
 //   PASS 0..3  as Pass: opaque, core, edge, glint
+//   LINES 0..1 skin with lines in a detail texture: one fetch and one dot product more
 // All light is computed in linear colour; texels and the framebuffer are sRGB.
 namespace caryatid::platform::gles {
 
@@ -17,6 +18,14 @@ uniform vec4 u_bones[90];
 uniform mat4 u_view_projection;
 uniform vec3 u_eye;
 varying vec2 v_uv;
+#if LINES
+uniform vec4 u_wrinkles[2];
+varying vec4 v_wrinkles;
+// The figure's left is in the left half of the head's texture.
+void fold() {
+  v_wrinkles = mix(u_wrinkles[0], u_wrinkles[1], clamp(12.0 * a_uv.x - 5.5, 0.0, 1.0));
+}
+#endif
 
 void skin(out vec3 position, out vec3 normal) {
   int i = int(a_bone.x) * 3, j = int(a_bone.y) * 3, k = int(a_bone.z) * 3, l = int(a_bone.w) * 3;
@@ -43,6 +52,9 @@ void main() {
   v_normal = vec4(normal, a_normal.w);
   v_view = normalize(u_eye - position);
   v_uv = a_uv;
+#if LINES
+  fold();
+#endif
   gl_Position = u_view_projection * vec4(position, 1.0);
 }
 #else
@@ -61,6 +73,9 @@ void main() {
   v_specular = specular;
 #endif
   v_uv = a_uv;
+#if LINES
+  fold();
+#endif
   gl_Position = u_view_projection * vec4(position, 1.0);
 }
 #endif
@@ -201,6 +216,10 @@ varying vec3 v_view;
 varying vec3 v_diffuse;
 varying vec3 v_specular;
 #endif
+#if LINES
+uniform sampler2D u_detail;
+varying vec4 v_wrinkles;
+#endif
 
 void main() {
   vec4 texel = texture2D(u_texture, v_uv);
@@ -220,6 +239,12 @@ void main() {
   diffuse *= u_tint.rgb;
 #else
   vec3 diffuse = v_diffuse, specular = v_specular;
+#endif
+#if LINES
+  // Folds: shade in the furrow, redder than the skin, and light on the ridge. 8/15 is level.
+  float fold = dot(texture2D(u_detail, v_uv) - 0.5333, v_wrinkles);
+  albedo *= max(vec3(1.0) + fold * vec3(0.85, 1.1, 1.15), 0.0);
+  specular *= max(1.0 + 2.0 * fold, 0.0);
 #endif
 #if KIND == 0
   // Lips are redder than skin, and moist.

@@ -55,6 +55,7 @@ GLuint link(const Source& vertex, const Source& fragment, ErrorLine& out_error) 
   if (good == GL_TRUE) {
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "u_texture"), 0);
+    glUniform1i(glGetUniformLocation(program, "u_detail"), 1);
     return program;
   }
   std::array<char, 200> log{};
@@ -79,15 +80,19 @@ void find_uniforms(Program& p) {
   p.ambient_down = at("u_ambient_down");
   p.tint = at("u_tint");
   p.surface = at("u_surface");
+  p.wrinkles = at("u_wrinkles");
 }
 
 // Where light() runs: with the fragments in the best tier, with the vertices below it.
 bool make_scene_program(std::size_t kind, std::size_t tier, std::size_t pass, Program& out,
                         ErrorLine& out_error) {
-  std::array<char, 64> defines{};
+  const bool lined = kind == kLinedSkin;
+  const auto shown = lined ? static_cast<std::size_t>(pack::MaterialKind::skin) : kind;
+  std::array<char, 80> defines{};
   std::snprintf(defines.data(), defines.size(),
-                "#define KIND %d\n#define TIER %d\n#define PASS %d\n", static_cast<int>(kind),
-                static_cast<int>(tier), static_cast<int>(pass));
+                "#define KIND %d\n#define TIER %d\n#define PASS %d\n#define LINES %d\n",
+                static_cast<int>(shown), static_cast<int>(tier), static_cast<int>(pass),
+                lined && tier > 0 ? 1 : 0);
   const bool per_pixel = tier == static_cast<std::size_t>(scene::Shading::per_pixel);
   const char* vertex_light = per_pixel ? "" : kLightText;
   const char* fragment_light = per_pixel ? kLightText : "";
@@ -99,6 +104,12 @@ bool make_scene_program(std::size_t kind, std::size_t tier, std::size_t pass, Pr
 }
 
 }  // namespace
+
+std::size_t program_kind(const pack::Material& material) {
+  if (material.kind == pack::MaterialKind::skin && material.detail != pack::kNoTexture)
+    return kLinedSkin;
+  return std::min(static_cast<std::size_t>(material.kind), kLinedSkin - 1);
+}
 
 bool needs_pass(const pack::Material& material, Pass pass) {
   if ((material.flags & pack::kCornea) != 0) return pass == Pass::glint;
@@ -120,7 +131,7 @@ Programs::~Programs() {
 
 Status Programs::create(const pack::View& pack, ErrorLine& out_error) {
   for (const pack::Material& material : pack.materials) {
-    const auto kind = std::min(static_cast<std::size_t>(material.kind), kKindCount - 1);
+    const std::size_t kind = program_kind(material);
     for (std::size_t pass = 0; pass < kPassCount; ++pass) {
       if (!needs_pass(material, static_cast<Pass>(pass))) continue;
       for (std::size_t tier = 0; tier < kTierCount; ++tier) {

@@ -13,14 +13,17 @@ enum Attribute : GLuint { kPosition, kNormal, kUv, kBone, kWeight, kAttributeCou
 // How a draw treats alpha: not at all, only what is nearly opaque (writes depth), only the soft
 // edge around that (blended), or added light on top (cornea).
 enum class Pass : std::uint8_t { opaque, core, edge, glint };
-inline constexpr std::size_t kPassCount = 4, kKindCount = 6, kTierCount = 3;
+// A kind of program: pack::MaterialKind, or skin that has lines.
+inline constexpr std::size_t kPassCount = 4, kKindCount = 7, kTierCount = 3;
+inline constexpr std::size_t kLinedSkin = 6;
+std::size_t program_kind(const pack::Material& material);
 
 struct Program {
   GLuint name = 0;
   GLint bones = -1, view_projection = -1, eye = -1;
   GLint key_direction = -1, key_color = -1, fill_direction = -1, fill_color = -1;
   GLint rim_direction = -1, rim_color = -1, ambient_up = -1, ambient_down = -1;
-  GLint tint = -1, surface = -1;
+  GLint tint = -1, surface = -1, wrinkles = -1;
   std::uint32_t frame = 0;  // Frame for which its camera and lights are set.
 };
 
@@ -33,8 +36,8 @@ class Programs {
 
   // Compiles what `pack` needs. unsupported (program) with the driver's first line in `out_error`.
   Status create(const pack::View& pack, ErrorLine& out_error);
-  Program& scene(pack::MaterialKind kind, scene::Shading tier, Pass pass) {
-    return scene_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(tier)]
+  Program& scene(const pack::Material& material, scene::Shading tier, Pass pass) {
+    return scene_[program_kind(material)][static_cast<std::size_t>(tier)]
                  [static_cast<std::size_t>(pass)];
   }
   GLuint quad() const { return quad_; }                  // u_scale; samples unit 0

@@ -50,6 +50,18 @@ TEST(Occlusion, EyesStayOpen) {
   EXPECT_FLOAT_EQ(c.objects[0].mesh.occlusion[0], 0.0f);
 }
 
+TEST(Occlusion, TheMouthDarkensFromTheTeethInwards) {
+  Character c = floor_with_wall(false);
+  c.objects[0].role = pack::ObjectRole::mouth;
+  auto& p = c.objects[0].mesh.position_m;
+  for (std::size_t v = 0; v < p.size(); ++v) p[v].z = -0.01f * static_cast<float>(v);
+  bake_occlusion(c);
+  const std::vector<float>& o = c.objects[0].mesh.occlusion;
+  EXPECT_LT(o[0], 0.1f);
+  for (std::size_t v = 1; v < o.size(); ++v) EXPECT_GE(o[v], o[v - 1]);
+  EXPECT_GT(o.back(), 0.5f);
+}
+
 TEST(RayTree, FindsTheNearerOfManyTriangles) {
   std::vector<RayTree::Triangle> stack;
   for (int i = 1; i <= 50; ++i) {
