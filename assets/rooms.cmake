@@ -9,6 +9,9 @@ target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
 # Rooms inside bake: human (import of the base human), simplify, face (FAT), body, texture, pack.
 file(GLOB_RECURSE bake_sources CONFIGURE_DEPENDS assets/bake/*.cpp)
 file(GLOB_RECURSE tool_sources CONFIGURE_DEPENDS assets/tool/*.cpp)
+# The inner loops of the simplifier gain a tenth.
+set_source_files_properties(assets/bake/simplify/edge_collapse.cpp
+  assets/bake/simplify/fast_cost.cpp PROPERTIES COMPILE_OPTIONS -O3)
 if(bake_sources)
   add_library(caryatid_bake STATIC ${bake_sources})
   target_link_libraries(caryatid_bake PUBLIC caryatid_agent caryatid_host_libraries

@@ -1,5 +1,8 @@
 #include "tests/bench/simplify_peers.h"
 
+// The peers run as released: without their assertions.
+#define NDEBUG
+#define CGAL_NDEBUG
 #include <ctime>
 
 #include "tests/bench/heap.h"

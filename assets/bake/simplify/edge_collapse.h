@@ -44,11 +44,19 @@ struct CollapseReport {
   TopologyRepairs repairs;
 };
 
-// Simplifies until the target is reached or nothing valid is left. Deterministic. About
-// 70 bytes a triangle at its peak, the surface included; O(n log n).
+// Simplifies until the target is reached or nothing valid is left. Deterministic, and free of the
+// numbering of the input but for vertices in one thousandth of the box. At most 67 bytes a triangle
+// at its peak, the surface included; O(n log n).
+//
+// What bounds the speed (perf, body of 26756 triangles, 2 us a collapse): 45 % is the evaluation of
+// some 25 edges a collapse (a third arithmetic, two thirds gathering quadrics), 15 % the exact
+// position in double, 15 % connectivity, 10 % the queue, 15 % building the half-edges. Above 100000
+// triangles waiting for memory doubles the time a collapse.
+//
 // Contract: finite positions; no triangle names a vertex twice or one that is not there.
-// Vertices are renumbered (unused ones drop out); order of what stays is kept. With a log, ids in
-// it are those of the input, and fans cut off a non-manifold vertex follow after position.size().
+// Vertices are renumbered along a space-filling curve (unused ones drop out). With a log, what
+// stays keeps the order of the input, ids in it are those of the input, and fans cut off a
+// non-manifold vertex follow after position.size().
 Surface collapse_edges(Surface surface, const CollapseOptions& options,
                        CollapseReport* report = nullptr);
 

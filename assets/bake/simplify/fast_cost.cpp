@@ -1,14 +1,14 @@
 #include "assets/bake/simplify/fast_cost.h"
 
-#include <cmath>
 #include <cstring>
 
 namespace caryatid::bake {
 namespace {
 
 using F4 = float __attribute__((vector_size(16)));
+using I4 = std::int32_t __attribute__((vector_size(16)));
 
-F4 load(const EdgeBatch::Lanes& lanes) {
+[[gnu::always_inline]] inline F4 load(const EdgeBatch::Lanes& lanes) {
   F4 v;
   std::memcpy(&v, lanes, sizeof v);
   return v;
@@ -16,41 +16,62 @@ F4 load(const EdgeBatch::Lanes& lanes) {
 struct V3 {
   F4 x, y, z;
 };
-V3 load3(const EdgeBatch::Lanes* lanes) { return {load(lanes[0]), load(lanes[1]), load(lanes[2])}; }
+[[gnu::always_inline]] inline V3 load3(const EdgeBatch::Lanes* lanes) {
+  return {load(lanes[0]), load(lanes[1]), load(lanes[2])};
+}
 struct S3 {
   F4 xx, xy, xz, yy, yz, zz;
 };
-S3 load6(const EdgeBatch::Lanes* l) {
+[[gnu::always_inline]] inline S3 load6(const EdgeBatch::Lanes* l) {
   return {load(l[0]), load(l[1]), load(l[2]), load(l[3]), load(l[4]), load(l[5])};
 }
-F4 dot(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V3 operator+(const V3& a, const V3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-V3 operator-(const V3& a, const V3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-V3 operator*(const S3& m, const V3& v) {
+// area_weight() of each lane.
+[[gnu::always_inline]] inline F4 weight(F4 n2) {
+  return std::bit_cast<F4>(0x3F800000 + 0x07F00000 - (std::bit_cast<I4>(n2) >> 3));
+}
+[[gnu::always_inline]] inline F4 dot(const V3& a, const V3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[gnu::always_inline]] inline V3 operator+(const V3& a, const V3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[gnu::always_inline]] inline V3 operator-(const V3& a, const V3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[gnu::always_inline]] inline V3 operator*(const S3& m, const V3& v) {
   return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
           m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
-V3 scaled(const V3& a, F4 f) { return {a.x * f, a.y * f, a.z * f}; }
-S3 without(const S3& m, const V3& n) {
-  return {m.xx - n.x * n.x, m.xy - n.x * n.y, m.xz - n.x * n.z,
-          m.yy - n.y * n.y, m.yz - n.y * n.z, m.zz - n.z * n.z};
+[[gnu::always_inline]] inline V3 scaled(const V3& a, F4 f) { return {a.x * f, a.y * f, a.z * f}; }
+[[gnu::always_inline]] inline S3 without(const S3& m, const V3& n) {
+  const V3 w = scaled(n, weight(dot(n, n)));
+  return {m.xx - w.x * n.x, m.xy - w.x * n.y, m.xz - w.x * n.z,
+          m.yy - w.y * n.y, m.yz - w.y * n.z, m.zz - w.z * n.z};
 }
-F4 root(F4 v) {
-  F4 r;
-  for (int i = 0; i < 4; ++i) r[i] = std::sqrt(v[i]);
-  return r;
+// order_weight() of each lane.
+[[gnu::always_inline]] inline F4 order(F4 trace) {
+  return std::bit_cast<F4>(0x3F800000 - 0x07F00000 + (std::bit_cast<I4>(trace) >> 3));
+}
+// 1 / sqrt(v) by Newton's method from the halved exponent: plain arithmetic runs in all lanes.
+[[gnu::always_inline]] inline F4 inverse_root(F4 v) {
+  F4 y = std::bit_cast<F4>(0x5F3759DF - (std::bit_cast<I4>(v) >> 1));
+  for (int i = 0; i < 3; ++i) y = y * (1.5f - 0.5f * v * y * y);
+  return y;
+}
+// 1 with the sign of v.
+[[gnu::always_inline]] inline F4 sign_of(F4 v) {
+  return std::bit_cast<F4>((std::bit_cast<I4>(v) & INT32_MIN) | 0x3F800000);
 }
 
 constexpr float kSin2Alpha = 3.0458649e-4f;  // alpha = 1 degree, as in placement.cpp.
 constexpr float kTan2Alpha = 3.0467929e-4f;
-constexpr float kFlatFirst = 1e-7f;  // Of the trace; float holds 6e-8.
 
 }  // namespace
 
 void EdgeBatch::evaluate() {
   const V3 h = load3(half), nl = load3(left), nr = load3(right);
-  const V3 s0 = load3(n0), s1 = load3(n1);
-  const S3 m0 = load6(a0), m1 = load6(a1);
+  const V3 s0 = load3(q0), s1 = load3(q1);
+  const S3 m0 = load6(q0 + 3), m1 = load6(q1 + 3);
   // The shared triangles contain the edge, so they drop out of everything multiplied by h.
   const V3 c0 = m0 * h, c1 = m1 * h, c = c0 - c1;
   const F4 k = dot(h, c0 + c1);
@@ -62,12 +83,11 @@ void EdgeBatch::evaluate() {
   const F4 trace = m.xx + m.yy + m.zz;
   const F4 tiny = trace * 0.0f + 1e-30f;
   // The plane of volume preservation: unit normal w, foot point xp.
-  const F4 inverse = 1.0f / root(dot(n, n) + tiny);
+  const F4 inverse = inverse_root(dot(n, n) + tiny);
   const V3 w = scaled(n, inverse);
   const V3 xp = scaled(w, offset * inverse);
   // Two directions in it (Duff et al. 2017, without branches).
-  F4 sign;
-  for (int i = 0; i < 4; ++i) sign[i] = std::copysign(1.0f, w.z[i]);
+  const F4 sign = sign_of(w.z);
   const F4 q = -1.0f / (sign + w.z), b = w.x * w.y * q;
   const V3 u = {1.0f + sign * w.x * w.x * q, sign * b, -sign * w.x};
   const V3 v = {b, sign + w.y * w.y * q, -w.y};
@@ -99,8 +119,8 @@ void EdgeBatch::evaluate() {
                          : zero;
   F4 f = dot(xp, gradient + c) + k +
          trace * (2.0f * (g0 * s + g1 * t) + (s * (uu * s + 2.0f * (uv * t)) + vv * (t * t)));
-  for (int i = 0; i < 4; ++i) f[i] = f[i] > 0.0f ? f[i] : 0.0f;
-  f = f + kFlatFirst * trace * dot(h, h);
+  f = f > 0.0f ? f : zero;
+  f = order(trace) * (f + kFlatFirst * trace * dot(h, h));
   std::memcpy(cost, &f, sizeof cost);
 }
 

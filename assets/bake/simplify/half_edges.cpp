@@ -5,33 +5,40 @@
 namespace caryatid::bake {
 namespace {
 
-// Links half-edges that run over the same two vertices in opposite directions. Counting sort by the
-// lower vertex: linear, and no hash whose order could differ between machines.
+// Links half-edges that run over the same two vertices in opposite directions. They are chained by
+// their lower vertex, in the arrays that are there anyway: linear, and no hash whose order could
+// differ between machines.
 std::uint32_t link_twins(HalfEdges& mesh, std::uint32_t vertex_count) {
   const auto count = static_cast<std::uint32_t>(mesh.from.size());
-  std::vector<std::uint32_t> start(vertex_count + 1, 0), bucket(count);
-  const auto low = [&](std::uint32_t h) { return std::min(mesh.from[h], mesh.to(h)); };
-  const auto high = [&](std::uint32_t h) { return std::max(mesh.from[h], mesh.to(h)); };
-  for (std::uint32_t h = 0; h < count; ++h) ++start[low(h) + 1];
-  for (std::uint32_t v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
-  std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
-  for (std::uint32_t h = 0; h < count; ++h) bucket[fill[low(h)]++] = h;
+  std::vector<std::uint32_t>&head = mesh.first, &next = mesh.twin;
+  head.assign(vertex_count, kNoHalfEdge);
+  for (std::uint32_t h = 0; h < count; ++h) {
+    std::uint32_t& list = head[std::min(mesh.from[h], mesh.to(h))];
+    next[h] = list;
+    list = h;
+  }
   std::uint32_t bad = 0;
+  std::vector<std::uint64_t> sides;  // Of one lower vertex: the higher one, then the half-edge.
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    const auto begin = bucket.begin() + start[v], end = bucket.begin() + start[v + 1];
-    std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-      return high(a) != high(b) ? high(a) < high(b) : a < b;
-    });
-    for (auto i = begin; i != end;) {
-      auto j = i;
-      while (j != end && high(*j) == high(*i)) ++j;
-      if (j - i == 2 && mesh.from[*i] != mesh.from[*(i + 1)]) {
-        mesh.twin[*i] = *(i + 1);
-        mesh.twin[*(i + 1)] = *i;
-      } else if (j - i >= 2) {
+    sides.clear();
+    for (std::uint32_t h = head[v]; h != kNoHalfEdge;) {
+      sides.push_back(std::uint64_t{std::max(mesh.from[h], mesh.to(h))} << 32 | h);
+      const std::uint32_t after = next[h];
+      mesh.twin[h] = kNoHalfEdge;
+      h = after;
+    }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 0, j; i < sides.size(); i = j) {
+      for (j = i; j < sides.size() && sides[j] >> 32 == sides[i] >> 32;) ++j;
+      if (j - i < 2) continue;
+      const auto g = static_cast<std::uint32_t>(sides[i]);
+      const auto h = static_cast<std::uint32_t>(sides[i + 1]);
+      if (j - i == 2 && mesh.from[g] != mesh.from[h]) {
+        mesh.twin[g] = h;
+        mesh.twin[h] = g;
+      } else {
         ++bad;
       }
-      i = j;
     }
   }
   return bad;
@@ -87,25 +94,21 @@ HalfEdges::Collapsed HalfEdges::collapse(std::uint32_t h, std::vector<std::uint3
   return out;
 }
 
-bool HalfEdges::link_condition(std::uint32_t h, std::vector<std::uint32_t>& mark,
-                               std::uint32_t& stamp) const {
+bool HalfEdges::link_condition(std::uint32_t h, std::vector<std::uint32_t>& scratch) const {
   const std::uint32_t a = from[h], b = to(h), t = twin[h];
   const bool border_edge = t == kNoHalfEdge;
   const bool border_a = on_border(a), border_b = on_border(b);
   if (border_a && border_b && !border_edge) return false;
-  ++stamp;
-  std::uint32_t ring = 0, shared = 0;
-  for_ring(a, [&](std::uint32_t v) {
-    mark[v] = stamp;
-    ++ring;
-  });
+  scratch.clear();
+  for_ring(a, [&](std::uint32_t v) { scratch.push_back(v); });
+  std::size_t ring = scratch.size(), shared = 0;
   for_ring(b, [&](std::uint32_t v) {
-    if (mark[v] == stamp)
+    if (std::find(scratch.begin(), scratch.end(), v) != scratch.end())
       ++shared;
     else
       ++ring;
   });
-  // `ring` counts b itself (marked from a) and a (a is nobody's mark: counted from b) once each.
+  // `ring` counts b itself (in a's ring) and a (not in its own: counted from b) once each.
   if (shared != (border_edge ? 1u : 2u)) return false;
   if (ring <= (border_a || border_b ? 3u : 4u)) return false;
   // The opposite edges of a removed triangle must not both be borders: its apex would be left

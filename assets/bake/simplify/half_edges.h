@@ -65,9 +65,8 @@ struct HalfEdges {
   // Whether the surface stays a surface (Hoppe et al. 1993; thesis 2.2): the ends share no
   // neighbours but the opposite vertices, no border is pinched, and at least a tetrahedron stays (a
   // triangle where there is a border).
-  // `mark` has one entry a vertex and `stamp` grows by one a call.
-  bool link_condition(std::uint32_t h, std::vector<std::uint32_t>& mark,
-                      std::uint32_t& stamp) const;
+  // `scratch` is only there to keep its memory.
+  bool link_condition(std::uint32_t h, std::vector<std::uint32_t>& scratch) const;
 
   // Makes `h`, turned clockwise as far as an open fan goes, the first half-edge of its vertex.
   void rewind(std::uint32_t vertex, std::uint32_t h);

@@ -15,9 +15,10 @@ void for_edge_triangles(const HalfEdges& mesh, std::uint32_t h, F&& f) {
   });
 }
 
-// `at` gives the position of a vertex, in the frame of the caller's choice.
-template <class Position>
-EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at) {
+// `at` gives the position of a vertex, in the frame of the caller's choice; `weight` what the
+// squared volume of a triangle counts, by its n.n.
+template <class Position, class Weight>
+EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at, Weight&& weight) {
   EdgeSums sums;
   const std::uint32_t a = mesh.from[h], b = mesh.to(h);
   sums.edge_length2 = length2(at(b) - at(a));
@@ -25,7 +26,8 @@ EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at) {
   for_edge_triangles(mesh, h, [&](std::uint32_t g) {
     const std::uint32_t v[3] = {mesh.from[g], mesh.to(g), mesh.opposite(g)};
     const Vec3d p[3] = {at(v[0]), at(v[1]), at(v[2])};
-    sums.add_triangle(p[0], p[1], p[2]);
+    const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
+    sums.add_triangle(n, dot(cross(p[0], p[1]), p[2]), weight(length2(n)));
     for (int i = 0; i < 3; ++i) {
       if (v[i] != a && v[i] != b) {
         sums.ring_sum += p[i];
@@ -39,6 +41,11 @@ EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at) {
     }
   });
   return sums;
+}
+
+template <class Position>
+EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at) {
+  return sums_of(mesh, h, at, [](double) { return 1.0; });
 }
 
 }  // namespace caryatid::bake

@@ -106,8 +106,7 @@ class ObjectCollapse {
   std::vector<std::uint8_t> seam_degree_;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> loop_edges_;  // (other, loop)
   std::vector<Loop> loops_;
-  std::vector<std::uint32_t> serial_, mark_;
-  std::uint32_t stamp_ = 0;
+  std::vector<std::uint32_t> serial_, scratch_;
   std::priority_queue<Candidate> queue_;
   std::vector<SplitRecord> records_;  // In order of collapse; slots are wedges, triangles original.
   std::vector<std::uint32_t> gone_wedges_;  // In order; as many a record as it adds back.
@@ -167,7 +166,6 @@ void ObjectCollapse::weld() {
     position_[mesh_.from[h]] = Vec3d(m.position_m[wedge_[h]]);
   live_triangles_ = static_cast<std::uint32_t>(m.triangles.size());
   serial_.assign(mesh_.from.size(), 0);
-  mark_.assign(mesh_.first.size(), 0);
 }
 
 void ObjectCollapse::find_versions() {
@@ -527,8 +525,8 @@ ObjectHistory ObjectCollapse::run() {
         (twin != kNoHalfEdge && twin < top.half_edge))
       continue;
     const Plan p = plan(top.half_edge);
-    if (p.kind == Kind::none || !mesh_.link_condition(p.half_edge, mark_, stamp_) ||
-        !keeps_shape(p) || !keeps_wedges(p))
+    if (p.kind == Kind::none || !mesh_.link_condition(p.half_edge, scratch_) || !keeps_shape(p) ||
+        !keeps_wedges(p))
       continue;
     const std::uint32_t keep = mesh_.from[p.half_edge];
     collapse(p);

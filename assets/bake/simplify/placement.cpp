@@ -65,13 +65,15 @@ std::optional<Vec3d> Constraints::point() const {
 }
 
 void EdgeSums::add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d n = cross(b - a, c - a);
-  const double d = dot(cross(a, b), c);
+  add_triangle(cross(b - a, c - a), dot(cross(a, b), c), 1.0);
+}
+
+void EdgeSums::add_triangle(const Vec3d& n, double d, double weight) {
   normal += n;
   offset += d;
-  volume.h.add(Sym3::outer(n), 1.0);
-  volume.c -= d * n;
-  volume.k += d * d;
+  volume.h.add(Sym3::outer(n), weight);
+  volume.c -= weight * d * n;
+  volume.k += weight * d * d;
 }
 
 void EdgeSums::add_border(const Vec3d& s, const Vec3d& t) {
@@ -93,7 +95,8 @@ std::optional<Vec3d> best_position(const EdgeSums& sums) {
     // Volume and boundary optimisation in one quadratic (1999 form): 9 = (1/2) / (1/18).
     Quadratic q;
     q.add(sums.volume, kLambda);
-    if (sums.border) q.add(sums.boundary, 9.0 * (1.0 - kLambda) * sums.edge_length2);
+    if (sums.border)
+      q.add(sums.boundary, 9.0 * (1.0 - kLambda) * sums.border_weight * sums.edge_length2);
     planes.try_quadratic(q);
   }
   if (planes.count() < 3)

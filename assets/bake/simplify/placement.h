@@ -50,9 +50,12 @@ struct EdgeSums {
   Quadratic boundary;  // Sum of |e1 x (x_t - x)|^2.
   Vec3d ring_sum{0};   // Of the neighbours of both ends.
   double ring_count = 0;
-  double edge_length2 = 0;  // Of the edge.
+  double edge_length2 = 0;   // Of the edge.
+  double border_weight = 1;  // Of the border terms beside those of volume.
 
   void add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c);
+  // The same from n and d; `weight` counts in the quadratic only, never in the constraint.
+  void add_triangle(const Vec3d& n, double d, double weight);
   void add_border(const Vec3d& s, const Vec3d& t);
 };
 

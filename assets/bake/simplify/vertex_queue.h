@@ -1,6 +1,9 @@
 #pragma once
-// A priority queue of vertices by the cost of their cheapest edge; binary heap with places, so that
-// a key changes in O(log n) and nothing stale stays behind. 12 bytes a vertex.
+// A priority queue of vertices by the cost of their cheapest edge: a heap of four children, whose
+// keys are cost and vertex in one word (costs are not negative, so their bits are in their order),
+// with places, so that a key changes in O(log n) and nothing stale stays behind. 12 bytes a vertex.
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -11,55 +14,62 @@ class VertexQueue {
  public:
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 
-  // All of `keys`, vertex by vertex.
-  explicit VertexQueue(const std::vector<float>& keys) : place_(keys.size()) {
-    heap_.reserve(keys.size());
-    for (std::uint32_t v = 0; v < keys.size(); ++v) heap_.push_back({keys[v], v});
-    for (std::uint32_t i = 0; i < heap_.size(); ++i) place_[heap_[i].vertex] = i;
-    for (auto i = static_cast<std::uint32_t>(heap_.size() / 2); i-- > 0;) sink(i, heap_[i]);
+  explicit VertexQueue(std::uint32_t count) : heap_(count), place_(count) {
+    for (std::uint32_t v = 0; v < count; ++v) fill(v, kNever);
   }
-  bool empty() const { return heap_.empty() || heap_[0].key == kNever; }
-  std::uint32_t top() const { return heap_[0].vertex; }
-  float key(std::uint32_t vertex) const { return heap_[place_[vertex]].key; }
+  // The first keys, each >= 0; then start().
+  void fill(std::uint32_t vertex, float key) {
+    heap_[vertex] = entry(key, vertex);
+    place_[vertex] = vertex;
+  }
+  void start() {
+    for (auto i = static_cast<std::uint32_t>(heap_.size()); i-- > 0;) sink(i, heap_[i]);
+  }
+  bool empty() const { return heap_.empty() || key_of(heap_[0]) == kNever; }
+  std::uint32_t top() const { return static_cast<std::uint32_t>(heap_[0]); }
+  float key(std::uint32_t vertex) const { return key_of(heap_[place_[vertex]]); }
   void set(std::uint32_t vertex, float key) {
     const std::uint32_t at = place_[vertex];
-    const Entry entry{key, vertex};
-    if (before(entry, heap_[at]))
-      rise(at, entry);
-    else
-      sink(at, entry);
+    const std::uint64_t e = entry(key, vertex);
+    if (e < heap_[at])
+      rise(at, e);
+    else if (e > heap_[at])
+      sink(at, e);
   }
 
  private:
-  struct Entry {
-    float key;
-    std::uint32_t vertex;
-  };
-  static bool before(const Entry& a, const Entry& b) {
-    return a.key < b.key || (a.key == b.key && a.vertex < b.vertex);
+  static std::uint64_t entry(float key, std::uint32_t vertex) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | vertex;
   }
-  void put(std::uint32_t at, const Entry& entry) {
-    heap_[at] = entry;
-    place_[entry.vertex] = at;
+  static float key_of(std::uint64_t e) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(e >> 32));
   }
-  void rise(std::uint32_t at, const Entry& entry) {
-    while (at > 0 && before(entry, heap_[(at - 1) / 2])) {
-      put(at, heap_[(at - 1) / 2]);
-      at = (at - 1) / 2;
+  void put(std::uint32_t at, std::uint64_t e) {
+    heap_[at] = e;
+    place_[static_cast<std::uint32_t>(e)] = at;
+  }
+  void rise(std::uint32_t at, std::uint64_t e) {
+    while (at > 0 && e < heap_[(at - 1) / 4]) {
+      put(at, heap_[(at - 1) / 4]);
+      at = (at - 1) / 4;
     }
-    put(at, entry);
+    put(at, e);
   }
-  void sink(std::uint32_t at, Entry entry) {
+  void sink(std::uint32_t at, std::uint64_t e) {
     const auto size = static_cast<std::uint32_t>(heap_.size());
-    for (std::uint32_t child; (child = 2 * at + 1) < size; at = child) {
-      if (child + 1 < size && before(heap_[child + 1], heap_[child])) ++child;
-      if (!before(heap_[child], entry)) break;
-      put(at, heap_[child]);
+    for (std::uint32_t first; (first = 4 * at + 1) < size;) {
+      std::uint32_t least = first;
+      const std::uint32_t end = std::min(first + 4, size);
+      for (std::uint32_t child = first + 1; child < end; ++child)
+        if (heap_[child] < heap_[least]) least = child;
+      if (heap_[least] >= e) break;
+      put(at, heap_[least]);
+      at = least;
     }
-    put(at, entry);
+    put(at, e);
   }
 
-  std::vector<Entry> heap_;
+  std::vector<std::uint64_t> heap_;
   std::vector<std::uint32_t> place_;
 };
 
