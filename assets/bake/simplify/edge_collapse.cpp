@@ -232,9 +232,8 @@ std::optional<Vec3d> EdgeCollapse::slow_position(std::uint32_t h, double* cost) 
   if (cost != nullptr) {
     const Sym3& h2 = sums.volume.h;
     const double trace = h2.xx + h2.yy + h2.zz;
-    *cost = static_cast<double>(order_weight(static_cast<float>(trace))) *
-            (72.0 * collapse_cost(sums, *x) * (lock_a || lock_b ? 2.0 : 1.0) +
-             static_cast<double>(kFlatFirst) * trace * sums.edge_length2 / 4.0);
+    *cost = 72.0 * collapse_cost(sums, *x) * (lock_a || lock_b ? 2.0 : 1.0) +
+            static_cast<double>(kFlatFirst) * trace * sums.edge_length2 / 4.0;
   }
   if (lock_a || lock_b) return node_[lock_a ? a : b].x;
   return middle + *x;

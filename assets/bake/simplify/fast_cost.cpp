@@ -27,7 +27,7 @@ struct S3 {
 }
 // area_weight() of each lane.
 [[gnu::always_inline]] inline F4 weight(F4 n2) {
-  return std::bit_cast<F4>(0x3F800000 + 0x07F00000 - (std::bit_cast<I4>(n2) >> 3));
+  return std::bit_cast<F4>(0x3F800000 + 0x03F80000 - (std::bit_cast<I4>(n2) >> 4));
 }
 [[gnu::always_inline]] inline F4 dot(const V3& a, const V3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -47,10 +47,6 @@ struct S3 {
   const V3 w = scaled(n, weight(dot(n, n)));
   return {m.xx - w.x * n.x, m.xy - w.x * n.y, m.xz - w.x * n.z,
           m.yy - w.y * n.y, m.yz - w.y * n.z, m.zz - w.z * n.z};
-}
-// order_weight() of each lane.
-[[gnu::always_inline]] inline F4 order(F4 trace) {
-  return std::bit_cast<F4>(0x3F800000 - 0x07F00000 + (std::bit_cast<I4>(trace) >> 3));
 }
 // 1 / sqrt(v) by Newton's method from the halved exponent: plain arithmetic runs in all lanes.
 [[gnu::always_inline]] inline F4 inverse_root(F4 v) {
@@ -120,7 +116,7 @@ void EdgeBatch::evaluate() {
   F4 f = dot(xp, gradient + c) + k +
          trace * (2.0f * (g0 * s + g1 * t) + (s * (uu * s + 2.0f * (uv * t)) + vv * (t * t)));
   f = f > 0.0f ? f : zero;
-  f = order(trace) * (f + kFlatFirst * trace * dot(h, h));
+  f = f + kFlatFirst * trace * dot(h, h);
   std::memcpy(cost, &f, sizeof cost);
 }
 

@@ -12,21 +12,13 @@
 
 namespace caryatid::bake {
 
-// The weight of a triangle's squared volume: about |n|^-1/4, from its n.n. With weight 1 a vertex
+// The weight of a triangle's squared volume: about |n|^-1/8, from its n.n. With weight 1 a vertex
 // is placed by the few large triangles around it alone; towards |n|^-1 (squared distance by area)
-// the largest errors fall but the mean grows. From the exponent bits: good to 4 %, and the same
+// the largest errors fall but the mean grows. From the exponent bits: good to 7 %, and the same
 // bits on every machine; a weight need not be exact, only the same whenever the triangle is.
 inline float area_weight(float n2) {
-  return std::bit_cast<float>(0x3F800000u + 0x07F00000u - (std::bit_cast<std::uint32_t>(n2) >> 3));
+  return std::bit_cast<float>(0x3F800000u + 0x03F80000u - (std::bit_cast<std::uint32_t>(n2) >> 4));
 }
-// What the weighted cost is multiplied with, so that edges still go in the order of squared volumes
-// (by weighted cost alone dense regions would wait too long): about the eighth root of the trace of
-// sum w n n^T.
-inline float order_weight(float trace) {
-  return std::bit_cast<float>(0x3F800000u - 0x07F00000u +
-                              (std::bit_cast<std::uint32_t>(trace) >> 3));
-}
-
 // What one triangle adds to the quadric of each of its corners.
 struct TriangleTerm {
   std::array<float, 9> v;  // n, then w n n^T: xx xy xz yy yz zz.
