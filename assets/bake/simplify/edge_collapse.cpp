@@ -17,7 +17,10 @@ namespace {
 
 // A position further from the middle of the edge than this part of the mean distance of the ring
 // (both squared) comes of planes that hardly meet: it would stand out as a spike.
-constexpr double kFar = 0.35;
+constexpr double kFar = 0.25;
+bool too_far(const Vec3d& x, const EdgeSums& sums) {
+  return length2(x) * sums.ring_count > kFar * sums.ring_square;
+}
 
 // One cache line: all that the evaluation of an edge reads of its ends.
 struct alignas(64) Node {
@@ -228,7 +231,7 @@ std::optional<Vec3d> EdgeCollapse::slow_position(std::uint32_t h, double* cost) 
     x = node_[lock_a ? a : b].x - middle;
   else
     x = best_position(sums);
-  if (!x) return std::nullopt;
+  if (!x || (!lock_a && !lock_b && too_far(*x, sums))) return std::nullopt;
   if (cost != nullptr) {
     const Sym3& h2 = sums.volume.h;
     const double trace = h2.xx + h2.yy + h2.zz;
@@ -357,7 +360,6 @@ std::optional<Vec3d> EdgeCollapse::best_inside() {
   EdgeSums sums;
   s.n.clear();
   const std::size_t count = s.ring.size();
-  double reach2 = 0;
   const auto add = [&sums](const Vec3d& n, const Vec3d& on) {
     sums.add_triangle(n, dot(n, on), weight_of(length2(n)));
   };
@@ -367,7 +369,7 @@ std::optional<Vec3d> EdgeCollapse::best_inside() {
     s.n.push_back(cross(q - p, end - p));
     add(s.n.back(), end);
     sums.ring_sum += p;
-    reach2 += length2(p);
+    sums.ring_square += length2(p);
   }
   s.left = cross(s.at[0] - b, s.a - b);
   s.right = cross(s.at[s.split] - s.a, b - s.a);
@@ -375,7 +377,7 @@ std::optional<Vec3d> EdgeCollapse::best_inside() {
   add(s.right, s.a);
   sums.ring_count = static_cast<double>(count);
   const std::optional<Vec3d> x = best_position(sums);
-  if (!x || length2(*x) * sums.ring_count > kFar * reach2) return std::nullopt;
+  if (!x || too_far(*x, sums)) return std::nullopt;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d &p = s.at[i], &q = s.at[i + 1 == count ? 0 : i + 1];
     if (!(dot(s.n[i], cross(q - p, *x - p)) > 0.0)) return std::nullopt;

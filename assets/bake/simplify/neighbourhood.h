@@ -31,6 +31,7 @@ EdgeSums sums_of(const HalfEdges& mesh, std::uint32_t h, Position&& at, Weight&&
     for (int i = 0; i < 3; ++i) {
       if (v[i] != a && v[i] != b) {
         sums.ring_sum += p[i];
+        sums.ring_square += length2(p[i]);
         sums.ring_count += 1;
       }
       if (!border) continue;

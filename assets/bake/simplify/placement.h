@@ -49,9 +49,9 @@ struct EdgeSums {
   Vec3d e1{0}, e2{0};  // Sums over border edges (s, t): x_t - x_s and x_t x x_s.
   Quadratic boundary;  // Sum of |e1 x (x_t - x)|^2.
   Vec3d ring_sum{0};   // Of the neighbours of both ends.
-  double ring_count = 0;
-  double edge_length2 = 0;   // Of the edge.
-  double border_weight = 1;  // Of the border terms beside those of volume.
+  double ring_count = 0, ring_square = 0;  // How many, and the sum of their squared distances.
+  double edge_length2 = 0;                 // Of the edge.
+  double border_weight = 1;                // Of the border terms beside those of volume.
 
   void add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c);
   // The same from n and d; `weight` counts in the quadratic only, never in the constraint.
