@@ -42,6 +42,12 @@ scene::View view_of(const std::string& name) {
   return name == "bust" ? scene::View::bust : scene::View::head;
 }
 
+body::BapConvention bap_axes_of(const std::string& name) {
+  if (name == "plain") return body::BapConvention::plain_axes;
+  return name == "reversed" ? body::BapConvention::signed_axes_reversed
+                            : body::BapConvention::signed_axes;
+}
+
 }  // namespace
 
 void Kiosk::request_stop() { g_stop = true; }
@@ -332,6 +338,7 @@ void Kiosk::set_stage() {
           .walks = options_.view == "auto",
           .half_width_m = 0.5f * std::max(body.visible_height_m * aspect, body.visible_width_m),
           .eyes_m = subject_.eyes_m,
+          .sleep_s = static_cast<float>(options_.sleep_s),
           .seed = options_.seed});
 }
 
@@ -380,7 +387,18 @@ void Kiosk::act(const Tick& tick) {
   shown_ = mix.run();
   body::BapFrame breathing = *baps;
   if (spoken.breath > 0.0f) agent::inhale(spoken.breath, &breathing);
+  keep_joints(
+      baps == player_.baps() ? bap_axes_of(options_.bap_axes) : body::BapConvention::signed_axes,
+      &breathing);
   person_.show(shown_, breathing, Affine{}, tick.dt_s);
+}
+
+void Kiosk::keep_joints(body::BapConvention axes, body::BapFrame* io_body) {
+  person_.set_bap_convention(axes);
+  if (!options_.joint_limits) return;
+  const body::LimitReport limits = body::limit_joints(*io_body, axes);
+  if (limits.bitten > 0) ++report_.limited_frames;
+  if (limits.worst_excess_rad > report_.worst_limit.worst_excess_rad) report_.worst_limit = limits;
 }
 
 lod::SceneNeeds Kiosk::needs(bool busy) {

@@ -11,6 +11,7 @@
 #include "core/agent/agent.h"
 #include "core/agent/person.h"
 #include "core/agent/stage.h"
+#include "core/body/joint_limits.h"
 #include "core/lod/board_model.h"
 #include "core/lod/controller.h"
 #include "core/scene/camera.h"
@@ -40,6 +41,8 @@ struct RunReport {
   double seconds = 0.0;
   std::uint64_t allocations = 0;
   std::size_t arena_bytes = 0;
+  std::uint64_t limited_frames = 0;  // --joint-limits: with joints beyond their range,
+  body::LimitReport worst_limit;     // and the farthest beyond of all.
 };
 
 class Kiosk {
@@ -85,6 +88,7 @@ class Kiosk {
   float picture_aspect() const;
   void aim_camera();
   void act(const Tick& tick);
+  void keep_joints(body::BapConvention axes, body::BapFrame* io_body);
   const SpeechFrame& speak(const Tick& tick);
   SpeechMetrics speech_metrics() const;
   agent::Moment local_time(const Tick& tick) const;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "core/body/bap_table.h"
 #include "firmware-app/kiosk.h"
 #include "firmware-app/options.h"
 
@@ -20,6 +21,12 @@ void close_line(const caryatid::app::Options& options, const caryatid::app::RunR
   if (!options.frames_out.empty()) std::printf("; pictures in %s", options.frames_out.c_str());
   if (!options.metrics.empty()) std::printf("; metrics in %s", options.metrics.c_str());
   std::putchar('\n');
+  if (r.limited_frames > 0)
+    std::printf(
+        "caryatid: joints beyond human limits in %llu frames; the farthest %s, by %.0f degrees\n",
+        static_cast<unsigned long long>(r.limited_frames),
+        caryatid::body::bap_info(r.worst_limit.worst_bap).name,
+        static_cast<double>(r.worst_limit.worst_excess_rad) * 57.29578);
 }
 
 }  // namespace

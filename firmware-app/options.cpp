@@ -34,6 +34,11 @@ usage: caryatid [OPTIONS]
                          (default), pi3, pi4, mali450, gc7000
   --duration S           stop after S seconds
   --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of it
+  --bap-axes NAME        how --play's body stream turns joints: signed (default), reversed order,
+                         or plain (all about the positive axes)
+  --joint-limits         keeps every joint within human limits and says which were exceeded
+  --sleep S              without a visitor for S seconds the person walks off (default 90); she
+                         comes again at a press, or after 30 seconds
   --audio KIND           auto, alsa, alsa:DEVICE, file:PATH.wav or null (default auto: ALSA's
                          default device, else null; under --virtual-clock null)
   --voice PATH           the program that speaks (default: caryatid-voice beside this one)
@@ -83,6 +88,9 @@ enum Id : int {
   kPrometheus,
   kState,
   kListHardware,
+  kSleep,
+  kBapAxes,
+  kJointLimits,
   kCheck,
   kHelpId,
   kVersion,
@@ -116,6 +124,9 @@ constexpr option kLong[] = {
     {"prometheus", required_argument, nullptr, kPrometheus},
     {"state", required_argument, nullptr, kState},
     {"list-hardware", no_argument, nullptr, kListHardware},
+    {"sleep", required_argument, nullptr, kSleep},
+    {"bap-axes", required_argument, nullptr, kBapAxes},
+    {"joint-limits", no_argument, nullptr, kJointLimits},
     {"check", no_argument, nullptr, kCheck},
     {"help", no_argument, nullptr, kHelpId},
     {"version", no_argument, nullptr, kVersion},
@@ -195,6 +206,20 @@ bool rotation(const char* text, Options* out) {
   return true;
 }
 
+bool take_body(int id, const char* text, Options* o) {
+  switch (id) {
+    case kSleep:
+      return number("sleep", text, 1, 1e6, &o->sleep_s);
+    case kBapAxes:
+      return one_of("bap-axes", text, {"signed", "reversed", "plain"}, &o->bap_axes);
+    case kJointLimits:
+      o->joint_limits = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
 // Options that are a path and nothing more.
 bool take_path(int id, const char* text, Options* o) {
   switch (id) {
@@ -211,7 +236,7 @@ bool take_path(int id, const char* text, Options* o) {
       o->state = text;
       return true;
     default:
-      return false;
+      return take_body(id, text, o);
   }
 }
 

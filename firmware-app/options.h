@@ -32,6 +32,9 @@ struct Options {
   std::string status, prometheus;
   std::string state;  // A folder.
   std::uint64_t seed = 1;
+  double sleep_s = 90.0;            // Without a visitor, until the person walks off.
+  std::string bap_axes = "signed";  // Of what --play plays: signed, reversed or plain.
+  bool joint_limits = false;
   bool check = false;
   bool list_hardware = false;
 };

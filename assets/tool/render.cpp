@@ -8,6 +8,8 @@
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_style_named.h"
 #include "assets/tool/studio.h"
+#include "core/body/bap_table.h"
+#include "core/body/joint_limits.h"
 #include "core/emotion/profiles.h"
 #include "core/face/fap_fill.h"
 #include "core/face/visemes.h"
@@ -21,6 +23,8 @@ struct RenderArgs {
   std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", lod, mood, out;
   int viseme = -1;
   float phase = 0.0f;
+  std::string bap_axes = "signed";
+  bool joint_limits = false;
 };
 
 // "FILE@7" is frame 7 of FILE; without it the first.
@@ -64,6 +68,20 @@ body::BapFrame walking(const body::Skeleton& skeleton, const std::string& mood, 
   return frame;
 }
 
+body::BapConvention axes_named(const std::string& name) {
+  if (name == "plain") return body::BapConvention::plain_axes;
+  return name == "reversed" ? body::BapConvention::signed_axes_reversed
+                            : body::BapConvention::signed_axes;
+}
+
+void keep_joints(Pose* pose) {
+  const body::LimitReport limits = body::limit_joints(pose->baps, pose->bap_axes);
+  if (limits.bitten > 0)
+    std::printf("%d joint angles beyond human limits, the farthest %s by %.0f degrees\n",
+                limits.bitten, body::bap_info(limits.worst_bap).name,
+                static_cast<double>(limits.worst_excess_rad) * 57.29578);
+}
+
 void render(const RenderArgs& a) {
   unsigned w = 0, h = 0;
   if (std::sscanf(a.size.c_str(), "%ux%u", &w, &h) != 2 || w < 16 || h < 16 || w > 2048 || h > 2048)
@@ -81,7 +99,11 @@ void render(const RenderArgs& a) {
     face::fill_from_partners(&pose.faps);
   }
   set_faps(a.set, &pose.faps);
-  if (!a.bap.empty()) pose.baps = frame_of<stream::BapTextReader, body::BapFrame>(a.bap);
+  if (!a.bap.empty()) {
+    pose.baps = frame_of<stream::BapTextReader, body::BapFrame>(a.bap);
+    pose.bap_axes = axes_named(a.bap_axes);
+  }
+  if (a.joint_limits) keep_joints(&pose);
   Studio studio(a.pack, w, h);
   if (!a.mood.empty()) pose.baps = walking(studio.person().skeleton(), a.mood, a.phase);
   write_png(studio.picture(pose), a.out);
@@ -98,6 +120,10 @@ void add_render(CLI::App& app) {
   cmd->add_option("--set", a->set, "FAP=VALUE,... in the FAP's own unit");
   cmd->add_option("--viseme", a->viseme, "0..14")->check(CLI::Range(0, 14));
   cmd->add_option("--bap", a->bap, "FILE or FILE@FRAME of a .bap text");
+  cmd->add_option("--bap-axes", a->bap_axes, "How its BAPs turn joints: signed reversed plain")
+      ->check(CLI::IsMember({"signed", "reversed", "plain"}));
+  cmd->add_flag("--joint-limits", a->joint_limits,
+                "Keep joints within human limits and say which were exceeded");
   cmd->add_option("--mood", a->mood,
                   "Walking: normal bored happy sad angry hurried tired proud run");
   cmd->add_option("--phase", a->phase, "Of the left leg's walking cycle, 0..1")

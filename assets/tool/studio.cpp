@@ -84,6 +84,7 @@ Picture Studio::picture(const Pose& pose) {
     if (pose.speech_strength > 0.0f) mix.speech = &pose.speech;
     mix.speech_strength = pose.speech_strength;
   }
+  person_->set_bap_convention(pose.bap_axes);
   person_->show(mix.run(), pose.baps, Affine{}, 0.0f);
   const scene::Subject subject = scene::subject_of(person_->view());
   scene::ComposeJob job;

@@ -20,6 +20,7 @@ struct Pose {
   float speech_strength = 0.0f;  // 0: the mouth is the mood's.
   bool absolute = false;         // A stream's frame: replaces the calm face.
   body::BapFrame baps;
+  body::BapConvention bap_axes = body::BapConvention::signed_axes;
   scene::View view = scene::View::head;
   std::optional<scene::Framing> framing = std::nullopt;  // In place of `view`.
   std::uint32_t lod = 0;                                 // Triangles of the whole person; 0: all.

@@ -158,6 +158,7 @@ void Person::pose(const face::FapFrame& faps, const body::BapFrame& baps, const 
   body::PoseJob job;
   job.skeleton = &skeleton_;
   job.baps = &baps;
+  job.convention = convention_;
   job.extra = extra;
   job.out = posed;
   if (!job.run().ok() || !body::pose_helpers(skeleton_, posed).ok()) return;

@@ -47,6 +47,9 @@ class Person {
   void show(const face::FapFrame& faps, const body::BapFrame& baps, const Affine& place,
             float dt_s);
 
+  // How the BAPs given to show() turn joints; signed_axes until told otherwise.
+  void set_bap_convention(body::BapConvention convention) { convention_ = convention; }
+
   // What to draw. Valid until the next call that changes the person.
   std::span<const scene::MeshView> meshes() const { return {mesh_views_.data(), object_count()}; }
   std::span<const Affine> joints() const { return {joints_.data(), view_.joints.size()}; }
@@ -88,6 +91,7 @@ class Person {
   std::array<scene::MeshView, kMaxObjects> mesh_views_;
   std::span<std::uint16_t> index_scratch_;
   std::span<float> channel_weights_;
+  body::BapConvention convention_ = body::BapConvention::signed_axes;
   body::Skeleton skeleton_;
   std::array<Affine, kMaxJoints> joints_;
   face::FapLimits limits_;

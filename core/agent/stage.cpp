@@ -128,7 +128,7 @@ void Stage::direct(float dt_s, const Intentions& will) {
       break;
     case Phase::present:
       if (will.busy) clock_s_ = 0.0f;
-      if (setup_.walks && (clock_s_ > kSleep_s || (will.asleep && !will.busy))) leave();
+      if (setup_.walks && (clock_s_ > setup_.sleep_s || (will.asleep && !will.busy))) leave();
       break;
     case Phase::leaving:
       if (will.pressed) {

@@ -24,15 +24,14 @@ struct StageSetup {
   float half_width_m = 1.6f;   // What the camera sees to each side where she stands, body in view.
   Vec3 eyes_m{0, 1.6f, 0.1f};  // Midway between the eyes at rest.
   Vec3 points_at_m{-0.6f, 1.3f, 0.8f};  // Of a pointing gesture: where pictures are shown.
+  float sleep_s = 90.0f;  // Without a visitor (the agent is not busy) for so long she walks off.
   std::uint64_t seed = 1;
 };
 
 class Stage {
  public:
   enum class Phase : std::uint8_t { away, entering, present, leaving };
-  // Without a visitor (the agent is not busy) for so long she walks off.
-  static constexpr float kSleep_s = 90.0f;
-  // Then she comes back unasked after so long.
+  // Once away she comes back unasked after so long.
   static constexpr float kAway_s = 30.0f;
   // The neck's own limit beside the face: what is left of a turn is the eyes' and the trunk's.
   static constexpr float kNeckTurn_rad = 0.95f;

@@ -20,8 +20,9 @@ enum class BapConvention : std::uint8_t {
   // face the thighs; here they flex about Z towards the palm (> 0 closes either hand) and pivot
   // about -X.
   signed_axes,
-  // The same axes, all positive. Text files of the VREng project mean this: there hip flexion < 0
-  // lifts the thigh and knee flexion > 0 bends the knee.
+  // The same axes, all positive. Hand-written text files may mean this (sit.bap of the VREng
+  // project, whose recorded gestures are signed_axes): there hip flexion < 0 lifts the thigh and
+  // knee flexion > 0 bends the knee.
   plain_axes,
   // signed_axes with the order of rotations reversed (last BAP of the joint outermost).
   signed_axes_reversed,

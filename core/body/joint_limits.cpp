@@ -91,12 +91,24 @@ class Layer {
 
 }  // namespace
 
-LimitReport limit_joints(BapFrame& io) {
+namespace {
+
+// From plain_axes to signed_axes and back.
+void flip_signs(BapFrame& io) {
+  for (int bap = 1; bap < kFirstTranslationBap; ++bap)
+    if (bap_axis(bap).sign < 0) io.value[static_cast<std::size_t>(bap)] *= -1.0f;
+}
+
+}  // namespace
+
+LimitReport limit_joints(BapFrame& io, BapConvention convention) {
   constexpr float kWild = 1e8f;  // 1000 rad: sums stay finite.
   for (float& v : io.value) {
     if (!(v == v)) v = 0.0f;
     v = v < -kWild ? -kWild : (v > kWild ? kWild : v);
   }
+  const bool plain = convention == BapConvention::plain_axes;
+  if (plain) flip_signs(io);
   Layer layer(io);
   for (const Limit& l : kLimits) {
     const std::size_t first = index_of(l.first), last = index_of(l.last);
@@ -108,6 +120,7 @@ LimitReport limit_joints(BapFrame& io) {
     const float high = l.mirrored ? -l.low_deg : l.high_deg;
     layer.apply(right, right, 1, l.axis, low * kDegree, high * kDegree);
   }
+  if (plain) flip_signs(io);
   return layer.report();
 }
 

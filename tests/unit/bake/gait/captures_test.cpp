@@ -73,21 +73,41 @@ TEST(Captures, EveryBodyStreamOfOthersPlays) {
     int frames = 0;
     while (reader.next(&frame).ok()) {
       ++frames;
-      std::vector<Affine> pose(body::kHanimJointCount);
-      ASSERT_TRUE((body::PoseJob{.skeleton = &s,
-                                 .baps = &frame,
-                                 .convention = body::BapConvention::plain_axes,
-                                 .out = pose})
-                      .run()
-                      .ok());
-      for (std::size_t j = 0; j < pose.size(); ++j) {
-        const Vec3 at = joint_position(s, pose, static_cast<body::HanimJoint>(j));
-        ASSERT_LT(glm::length(at), 3.0f) << entry.path() << " frame " << frames;
+      for (const auto convention :
+           {body::BapConvention::signed_axes, body::BapConvention::plain_axes,
+            body::BapConvention::signed_axes_reversed}) {
+        std::vector<Affine> pose(body::kHanimJointCount);
+        ASSERT_TRUE(
+            (body::PoseJob{.skeleton = &s, .baps = &frame, .convention = convention, .out = pose})
+                .run()
+                .ok());
+        for (std::size_t j = 0; j < pose.size(); ++j) {
+          const Vec3 at = joint_position(s, pose, static_cast<body::HanimJoint>(j));
+          ASSERT_LT(glm::length(at), 3.0f) << entry.path() << " frame " << frames;
+        }
       }
     }
     EXPECT_GT(frames, 0) << entry.path();
   }
   EXPECT_EQ(files, 14);
+}
+
+TEST(Captures, ClappingHandsMeetInFrontOfTheChest) {
+  CARYATID_NEED_TEST_DATA(streams, "streams/vreng");
+  const std::string text = test::read_file(streams / "clap.bap");
+  stream::BapTextReader reader(text);
+  ASSERT_TRUE(reader.read_header().ok());
+  const body::Skeleton s = body::upright_skeleton();
+  body::BapFrame frame;
+  std::vector<Affine> pose(body::kHanimJointCount);
+  float least_m = 1.0f;
+  while (reader.next(&frame).ok()) {
+    ASSERT_TRUE((body::PoseJob{.skeleton = &s, .baps = &frame, .out = pose}).run().ok());
+    const Vec3 left = joint_position(s, pose, body::HanimJoint::l_middle1);
+    const Vec3 right = joint_position(s, pose, body::HanimJoint::r_middle1);
+    if (left.y > 1.1f && left.z > 0.1f) least_m = std::min(least_m, glm::distance(left, right));
+  }
+  EXPECT_LT(least_m, 0.2f);
 }
 
 TEST(Captures, SittingBendsHipsForwardAndKneesBackInPlainAxes) {

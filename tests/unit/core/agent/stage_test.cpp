@@ -107,9 +107,9 @@ TEST(Stage, MorePressesDoNotMakeHerWalkOn) {
 TEST(Stage, WalksOffWhenNobodyComesAndReturnsAtAPress) {
   Show show;
   show.until(Stage::Phase::present, 10.0f);
-  show.run(Stage::kSleep_s + 30.0f, true);
+  show.run(StageSetup{}.sleep_s + 30.0f, true);
   EXPECT_EQ(show.stage.phase(), Stage::Phase::present);  // As long as somebody is there.
-  show.run(Stage::kSleep_s + 0.2f);
+  show.run(StageSetup{}.sleep_s + 0.2f);
   EXPECT_EQ(show.stage.phase(), Stage::Phase::leaving);
   EXPECT_LT(show.until(Stage::Phase::away, 20.0f), 8.0f);
   EXPECT_LT(show.x(), -1.8f);  // To the other side.
@@ -123,14 +123,14 @@ TEST(Stage, WalksOffWhenNobodyComesAndReturnsAtAPress) {
 TEST(Stage, ReturnsUnaskedAfterAWhile) {
   Show show;
   show.until(Stage::Phase::present, 10.0f);
-  show.until(Stage::Phase::away, Stage::kSleep_s + 20.0f);
+  show.until(Stage::Phase::away, StageSetup{}.sleep_s + 20.0f);
   EXPECT_NEAR(show.until(Stage::Phase::entering, 100.0f), Stage::kAway_s, 0.2f);
 }
 
 TEST(Stage, PressWhileSheLeavesBringsHerBack) {
   Show show;
   show.until(Stage::Phase::present, 10.0f);
-  show.until(Stage::Phase::leaving, Stage::kSleep_s + 5.0f);
+  show.until(Stage::Phase::leaving, StageSetup{}.sleep_s + 5.0f);
   show.run(2.5f);
   ASSERT_LT(show.x(), -0.1f);  // Under way.
   show.frame(true);
@@ -142,7 +142,7 @@ TEST(Stage, PressWhileSheLeavesBringsHerBack) {
 TEST(Stage, StandsFromTheStartWhereSheDoesNotWalk) {
   Show show({.walks = false});
   EXPECT_EQ(show.stage.phase(), Stage::Phase::present);
-  show.run(Stage::kSleep_s + 20.0f);
+  show.run(StageSetup{}.sleep_s + 20.0f);
   EXPECT_EQ(show.stage.phase(), Stage::Phase::present);
   EXPECT_LT(std::abs(show.x()), 0.08f);
   EXPECT_FALSE(show.stage.moving());

@@ -67,6 +67,16 @@ TEST(JointLimits, HoldForTheNeckAsAWhole) {
   EXPECT_GT(sum, 70 * kDegree);
 }
 
+TEST(JointLimits, ReadPlainAxesAsTheyAreMeant) {
+  BapFrame f;
+  f.set(10, 200 * kDegree * 1e5f);  // Left knee: bent where all axes are positive.
+  EXPECT_EQ(limit_joints(f, BapConvention::plain_axes).bitten, 1);
+  EXPECT_GT(f.get(10), 100 * kDegree * 1e5f);
+  EXPECT_LE(f.get(10), 113.01f * kDegree * 1e5f);
+  f.set(10, 60 * kDegree * 1e5f);
+  EXPECT_EQ(limit_joints(f).bitten, 1);  // The same number bends it backwards here.
+}
+
 TEST(JointLimits, TameHostileValues) {
   for (const float v :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e30f}) {
