@@ -14,7 +14,7 @@
 namespace caryatid::platform {
 
 struct SayJob {
-  std::string_view text;             // Valid UTF-8, at most kMaxSpeechBytes.
+  std::string_view text = {};        // Valid UTF-8, at most kMaxSpeechBytes.
   std::string_view language = "en";  // BCP 47, at most 31 bytes.
   bool ssml = false;
   float rate = 1.0f, pitch = 1.0f;  // Of the voice's own, 0.5..2.

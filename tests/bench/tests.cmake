@@ -26,3 +26,4 @@ target_compile_definitions(caryatid-bench PRIVATE
   CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
   CARYATID_BUILTIN_PACK="${CMAKE_SOURCE_DIR}/firmware-app/builtin_face.pack")
 add_test(NAME bench_frame COMMAND caryatid-bench --filter frame/)
+add_test(NAME bench_speech COMMAND caryatid-bench --filter speech/)

@@ -63,3 +63,26 @@ add_executable(unit_firmware_stream_file
 target_link_libraries(unit_firmware_stream_file PRIVATE caryatid_agent caryatid_flags
   GTest::gtest_main)
 add_test(NAME unit_firmware_stream_file COMMAND unit_firmware_stream_file)
+# Sound with a fake of ALSA; voices with a program that crashes, hangs and lies.
+if(ALSA_FOUND)
+  set(audio_tests ${CMAKE_CURRENT_LIST_DIR}/platform/audio)
+  add_executable(unit_platform_audio ${audio_tests}/audio_test.cpp ${audio_tests}/fake_alsa.cpp
+    ${CMAKE_SOURCE_DIR}/platform/audio/audio.cpp ${CMAKE_SOURCE_DIR}/platform/audio/wav.cpp
+    ${CMAKE_SOURCE_DIR}/platform/audio/timed/timed.cpp
+    ${CMAKE_SOURCE_DIR}/platform/audio/alsa/alsa_audio.cpp)
+  target_compile_definitions(unit_platform_audio PRIVATE CARYATID_AUDIO_ALSA=1)
+  target_link_libraries(unit_platform_audio PRIVATE caryatid_base caryatid_flags GTest::gtest_main
+    Threads::Threads)
+  add_test(NAME unit_platform_audio COMMAND unit_platform_audio)
+endif()
+set(voice_tests ${CMAKE_CURRENT_LIST_DIR}/platform/voice)
+add_executable(fake-voice ${voice_tests}/fake_voice.cpp)
+target_link_libraries(fake-voice PRIVATE caryatid_voice_client caryatid_flags)
+file(GLOB voice_test_sources CONFIGURE_DEPENDS ${voice_tests}/*_test.cpp)
+add_executable(unit_platform_voice ${voice_test_sources})
+target_link_libraries(unit_platform_voice PRIVATE caryatid_voice_client caryatid_flags
+  GTest::gtest_main)
+target_compile_definitions(unit_platform_voice PRIVATE
+  CARYATID_FAKE_VOICE="$<TARGET_FILE:fake-voice>")
+add_dependencies(unit_platform_voice fake-voice)
+add_test(NAME unit_platform_voice COMMAND unit_platform_voice)

@@ -120,6 +120,7 @@ class AlsaAudio final : public Audio {
   // The thread's.
   snd_pcm_t* pcm_ = nullptr;
   unsigned channels_ = 1;
+  bool dry_ = false;
   std::size_t period_ = 256;
   std::int64_t device_frames_ = 0;
   std::array<Piece, 32> pieces_{};
@@ -216,7 +217,9 @@ std::size_t AlsaAudio::take(std::size_t frames) {
             mono_.begin() + static_cast<std::ptrdiff_t>(frames), std::int16_t{0});
   const bool inside = !finished_.load(std::memory_order_relaxed) &&
                       before > skip_to_.load(std::memory_order_relaxed);
-  if (inside && got < frames) underruns_.fetch_add(1, std::memory_order_relaxed);
+  const bool dry = inside && got < frames;
+  if (dry && !dry_) underruns_.fetch_add(1, std::memory_order_relaxed);
+  dry_ = dry;
   return got;
 }
 

@@ -49,7 +49,7 @@ class TimedAudio final : public Audio {
   std::int64_t start_us_ = -1;
   std::int64_t passed_ = 0;  // Samples since the start, silence included.
   std::int64_t base_ = 0;    // Of the ring, at the last flush.
-  bool finished_ = false;
+  bool finished_ = false, dry_ = false;
   AudioCounts counts_;
 };
 
@@ -87,7 +87,9 @@ void TimedAudio::update(std::int64_t now_us) {
     volume_.apply({piece, got}, rate_hz_);
     const bool inside = !finished_ && ring_.taken() > base_;
     if (got < want) std::memset(piece + got, 0, (want - got) * sizeof piece[0]);
-    if (got < want && inside) ++counts_.underruns;
+    const bool dry = got < want && inside;
+    if (dry && !dry_) ++counts_.underruns;
+    dry_ = dry;
     put({piece, want});
     passed_ += static_cast<std::int64_t>(want);
   }
