@@ -1,7 +1,8 @@
-// What speech adds to a frame: the mouth of a moment, brows and head, and the mixing of a mouth over
-// a mood. A minute of English-like phones, 12 a second.
+// What speech adds to a frame: the mouth of a moment, brows and head, and the mixing of a mouth
+// over a mood. A minute of English-like phones, 12 a second.
 #include <memory>
 
+#include "core/base/crc.h"
 #include "core/base/random.h"
 #include "core/speech/liveliness.h"
 #include "core/speech/mouth.h"
@@ -10,7 +11,7 @@
 namespace caryatid::bench {
 namespace {
 
-constexpr const char* kPhones[] = {"w", "ˈɛ", "l", "k", "ʌ", "m", "p", "ɹ", "s", "f", "ˈaɪ",
+constexpr const char* kPhones[] = {"w", "ˈɛ", "l", "k", "ʌ", "m", "p",   "ɹ", "s", "f", "ˈaɪ",
                                    "v", "ɔː", "t", "ð", "ə", "n", "ˈiː", "b", "ʊ", "ʃ", ""};
 constexpr float kFrame_ms = 1000.0f / 30.0f;
 

@@ -25,6 +25,13 @@ foreach(source ${fuzz_sources})
     target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware-app/command.cpp
       ${CMAKE_SOURCE_DIR}/firmware-app/last_state.cpp)
   endif()
+  if(reader STREQUAL voice_wire)
+    target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/platform/voice/wire.cpp)
+  endif()
+  if(reader STREQUAL recording)
+    target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/platform/audio/wav.cpp
+      ${CMAKE_SOURCE_DIR}/platform/voice/recorded/recorded.cpp)
+  endif()
   if(CARYATID_FUZZ)
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
