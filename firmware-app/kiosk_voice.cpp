@@ -39,7 +39,9 @@ SpeechMetrics Kiosk::speech_metrics() const {
   m.jaw = shown_.get(3);
   m.upper_lip = shown_.get(4);
   m.lower_lip = shown_.get(5);
+  m.corner = shown_.get(6);
   m.lower_thrust = shown_.get(16);
+  m.upper_thrust = shown_.get(17);
   m.tongue_forward = shown_.get(45);
   return m;
 }

@@ -16,7 +16,9 @@ void write_speech(std::FILE* file, const SpeechMetrics& m) {
   number("jaw", m.jaw);
   number("upper_lip", m.upper_lip);
   number("lower_lip", m.lower_lip);
+  number("corner", m.corner);
   number("lower_thrust", m.lower_thrust);
+  number("upper_thrust", m.upper_thrust);
   number("tongue_forward", m.tongue_forward);
   std::fprintf(file, "\"word\":%d},", m.word);
 }

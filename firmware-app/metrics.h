@@ -9,14 +9,15 @@
 
 namespace caryatid::app {
 
-// The mouth and what is heard with it; FAPs 3, 4, 5, 16 and 45 of the face that is shown.
+// The mouth and what is heard with it; FAPs 3, 4, 5, 6, 16, 17 and 45 of the face that is shown.
 struct SpeechMetrics {
   bool speaking = false;
   float heard_ms = 0.0f;  // Position in the utterance.
   int word = -1;
   int viseme = 0;  // That is shown the most, 0..14.
   float strength = 0.0f;
-  float jaw = 0.0f, upper_lip = 0.0f, lower_lip = 0.0f, lower_thrust = 0.0f, tongue_forward = 0.0f;
+  float jaw = 0.0f, upper_lip = 0.0f, lower_lip = 0.0f, corner = 0.0f, lower_thrust = 0.0f,
+        upper_thrust = 0.0f, tongue_forward = 0.0f;
 };
 
 struct FrameMetrics {

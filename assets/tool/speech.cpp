@@ -1,9 +1,14 @@
-// caryatid-tool speech: voices made ahead of time.
+// caryatid-tool speech: voices made ahead of time, recordings timed, mouths measured.
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "assets/bake/speech/align.h"
+#include "assets/bake/speech/contacts.h"
+#include "assets/bake/speech/sync.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/spoken.h"
+#include "assets/tool/studio.h"
 #include "assets/tool/text_file.h"
 
 namespace caryatid::tool {
@@ -11,20 +16,168 @@ namespace {
 
 struct SpeechArgs {
   VoiceJob job;
-  std::string recording, phones, out;
+  std::string recording, phones, out, metrics, pack, mood;
 };
+
+using Kind = SpokenEvent::Kind;
 
 std::string without_suffix(const std::string& path, const std::string& suffix) {
   return path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
 }
 
-void bake(const SpeechArgs& a) {
+void bake_voice(const SpeechArgs& a) {
   const std::string name = without_suffix(a.out, ".wav");
   const Spoken spoken = speak(a.job);
   write_wav(spoken, name + ".wav");
   write_text(name + ".timing", timing_text(spoken));
   std::printf("%s.wav and %s.timing: %.2f s, %zu events\n", name.c_str(), name.c_str(),
               spoken.end_ms * 1e-3, spoken.events.size());
+}
+
+// Phonemes in order, by blanks; "_" is a pause. Each gets its share of the recording by what it
+// would last in a voice: nothing more is known.
+Spoken voice_of_phones(const std::string& path) {
+  std::istringstream words(read_text(path));
+  Spoken out;
+  std::string ipa;
+  while (words >> ipa) {
+    const speech::Phoneme p = speech::phoneme_of(ipa);
+    out.events.push_back({Kind::phone, out.end_ms, 0, 0, ipa == "_" ? "" : ipa});
+    out.end_ms += p.begins.silent() ? 150 : (p.begins.vowel ? 110 : 70);
+  }
+  if (out.events.empty()) throw std::runtime_error(path + ":1: holds no phonemes; write p a _ t a");
+  return out;
+}
+
+// The part of a recording that is not silence at its ends, in milliseconds.
+std::pair<double, double> sounding_ms(const Spoken& recording) {
+  int loudest = 1;
+  for (const std::int16_t s : recording.samples) loudest = std::max(loudest, std::abs(int{s}));
+  std::size_t first = recording.samples.size(), last = 0;
+  for (std::size_t i = 0; i < recording.samples.size(); ++i)
+    if (std::abs(int{recording.samples[i]}) > loudest / 20) {
+      first = std::min(first, i);
+      last = i;
+    }
+  return {static_cast<double>(first) * 1000.0 / recording.rate_hz,
+          static_cast<double>(last) * 1000.0 / recording.rate_hz};
+}
+
+void time_recording(const SpeechArgs& a) {
+  const Spoken recording = read_wav(a.recording);
+  Spoken timing = a.phones.empty() ? speak(a.job) : voice_of_phones(a.phones);
+  std::int32_t before_ms = 0;
+  const auto move = [&](auto map) {
+    for (SpokenEvent& e : timing.events) {
+      e.time_ms =
+          std::clamp(static_cast<std::int32_t>(map(e.time_ms)), before_ms, recording.end_ms);
+      before_ms = e.time_ms;
+    }
+  };
+  if (a.phones.empty()) {
+    const bake::TimeMap map =
+        bake::align({timing.samples, timing.rate_hz}, {recording.samples, recording.rate_hz});
+    move([&map](int ms) { return 1000.0 * map(ms * 1e-3); });
+  } else {
+    const auto [from, to] = sounding_ms(recording);
+    move([&, f = from, t = to](int ms) { return f + (t - f) * ms / timing.end_ms; });
+  }
+  timing.end_ms = recording.end_ms;
+  write_text(a.out, timing_text(timing));
+  std::printf("%s: %zu events over %.2f s\n", a.out.c_str(), timing.events.size(),
+              timing.end_ms * 1e-3);
+}
+
+std::vector<bake::TimedPhone> phones_of(const Spoken& spoken) {
+  std::vector<bake::TimedPhone> out;
+  for (const SpokenEvent& e : spoken.events)
+    if (e.kind == Kind::phone) out.push_back({e.time_ms * 1e-3, e.text});
+  return out;
+}
+
+std::vector<bake::MouthFrame> read_metrics(const std::string& path) {
+  std::vector<bake::MouthFrame> out;
+  std::istringstream lines(read_text(path));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto j = nlohmann::json::parse(line, nullptr, false);
+    if (j.is_discarded())
+      throw std::runtime_error(path + ":" + std::to_string(number) +
+                               ": no JSON; run caryatid with"
+                               " --metrics again");
+    if (!j.contains("speech")) continue;
+    const auto& s = j["speech"];
+    out.push_back({j["time_s"], s["jaw"], s["upper_lip"], s["lower_lip"], s["corner"],
+                   s["lower_thrust"], s["upper_thrust"]});
+  }
+  return out;
+}
+
+// Times of the phones as they are heard in the file: where pieces of the voice's sound are found.
+std::vector<bake::TimedPhone> heard_phones(const Spoken& spoken, const Spoken& file,
+                                           double* out_offset_spread_s) {
+  constexpr std::size_t kPart = 2048;
+  constexpr std::int64_t kReach = 4410;  // 0.2 s either way.
+  const auto first_sound = [](const Spoken& s) {
+    std::int64_t i = 0;
+    while (i < static_cast<std::int64_t>(s.samples.size()) &&
+           std::abs(int{s.samples[std::size_t(i)]}) < 30)
+      ++i;
+    return i;
+  };
+  std::int64_t offset = first_sound(file) - first_sound(spoken);
+  std::int64_t least = offset, most = offset;
+  std::vector<bake::TimedPhone> out = phones_of(spoken);
+  double looked_s = -10.0;
+  for (bake::TimedPhone& p : out) {
+    const auto at = static_cast<std::int64_t>(p.start_s * spoken.rate_hz);
+    const bool room =
+        at + static_cast<std::int64_t>(kPart) < static_cast<std::int64_t>(spoken.samples.size());
+    if (p.start_s - looked_s > 2.0 && !p.ipa.empty() && room) {
+      const std::span part(spoken.samples.data() + at, kPart);
+      if (const auto found = bake::find_sound(file.samples, part, at + offset, kReach);
+          found >= 0) {
+        offset = found - at;
+        least = std::min(least, offset);
+        most = std::max(most, offset);
+        looked_s = p.start_s;
+      }
+    }
+    p.start_s += static_cast<double>(offset) / spoken.rate_hz;
+  }
+  *out_offset_spread_s = static_cast<double>(most - least) / spoken.rate_hz;
+  return out;
+}
+
+void sync(const SpeechArgs& a) {
+  const Spoken spoken = speak(a.job), file = read_wav(a.recording);
+  double spread_s = 0.0;
+  const auto phones = heard_phones(spoken, file, &spread_s);
+  const bake::SyncReport r = bake::measure_sync(read_metrics(a.metrics), phones);
+  const auto ms = [](double s) { return 1000.0 * s; };
+  std::printf("%.1f s of sound; its place in the file wanders by %.2f ms\n", spoken.end_ms * 1e-3,
+              ms(spread_s));
+  std::printf("%zu changes of viseme, %zu seen in the mouth\n", r.sounds, r.seen);
+  std::printf("mouth after sound, ms: p0.5 %.1f, p5 %.1f, p50 %.1f, p95 %.1f, p99.5 %.1f\n",
+              ms(r.percentile_s(0.5)), ms(r.percentile_s(5)), ms(r.percentile_s(50)),
+              ms(r.percentile_s(95)), ms(r.percentile_s(99.5)));
+  std::printf("sound leads by at most 15 ms and lags by at most 45 ms: %.2f %%\n",
+              100.0 * r.share_within(-0.045, 0.015));
+  std::printf("drift: %.2f ms a minute\n", 60.0 * ms(r.drift_s_per_s()));
+  std::printf("lips shut on p b m: %zu of %zu; lower lip at the teeth on f v: %zu of %zu\n", r.shut,
+              r.bilabials, r.touching, r.labiodentals);
+}
+
+void contacts(const SpeechArgs& a) {
+  Studio studio(a.pack, 64, 64);
+  const Spoken spoken = speak(a.job);
+  const face::FapFrame mood = a.mood.empty() ? face::FapFrame{} : emotion_named(a.mood);
+  const bake::ContactReport r =
+      bake::measure_contacts(phones_of(spoken), spoken.end_ms * 1e-3, mood, &studio.person());
+  std::printf("lips shut on p b m: %zu of %zu, widest gap %.2f mm\n", r.shut, r.bilabials,
+              static_cast<double>(r.widest_gap_m) * 1e3);
+  std::printf("lower lip at the teeth on f v: %zu of %zu, farthest %.2f mm\n", r.touching,
+              r.labiodentals, static_cast<double>(r.farthest_teeth_m) * 1e3);
 }
 
 void add_voice_options(CLI::App* cmd, SpeechArgs* a) {
@@ -35,18 +188,64 @@ void add_voice_options(CLI::App* cmd, SpeechArgs* a) {
   cmd->add_option("--voice", a->job.program, "caryatid-voice (default: beside this program)");
 }
 
+void add_speech_bake(CLI::App* speech) {
+  auto a = std::make_shared<SpeechArgs>();
+  CLI::App* cmd = speech->add_subcommand("bake", "Synthesise a text: NAME.wav and NAME.timing");
+  cmd->add_option("text", a->job.text, "What is said, UTF-8")->required();
+  add_voice_options(cmd, a.get());
+  cmd->add_option("-o,--out", a->out, "NAME, with or without .wav")->required();
+  cmd->footer("example: caryatid-tool speech bake \"Press five for maps.\" -o voice/maps");
+  cmd->callback([a] { bake_voice(*a); });
+}
+
+void add_speech_time(CLI::App* speech) {
+  auto a = std::make_shared<SpeechArgs>();
+  CLI::App* cmd = speech->add_subcommand("time", "The timing of a recorded voice");
+  cmd->add_option("recording", a->recording, "RECORDING.wav")->required();
+  CLI::Option* text = cmd->add_option("--text", a->job.text, "What is said in it, UTF-8");
+  cmd->add_option("--phones", a->phones, "A file of its phonemes in IPA instead; _ is a pause")
+      ->excludes(text);
+  add_voice_options(cmd, a.get());
+  cmd->add_option("-o,--out", a->out, "OUT.timing")->required();
+  cmd->footer("example: caryatid-tool speech time maps.wav --text \"Press five.\" -o maps.timing");
+  cmd->callback([a] {
+    if (a->job.text.empty() && a->phones.empty())
+      throw CLI::ValidationError("time", "give --text TEXT or --phones FILE");
+    time_recording(*a);
+  });
+}
+
+void add_speech_sync(CLI::App* speech) {
+  auto a = std::make_shared<SpeechArgs>();
+  CLI::App* cmd = speech->add_subcommand("sync", "Mouth against sound, from what a kiosk left");
+  cmd->add_option("--audio", a->recording, "The file of caryatid --audio file:FILE")->required();
+  cmd->add_option("--metrics", a->metrics, "The file of caryatid --metrics FILE")->required();
+  cmd->add_option("--text", a->job.text, "The text of caryatid --say TEXT")->required();
+  add_voice_options(cmd, a.get());
+  cmd->footer("example: caryatid-tool speech sync --audio a.wav --metrics m.jsonl --text Hello");
+  cmd->callback([a] { sync(*a); });
+}
+
+void add_speech_contacts(CLI::App* speech) {
+  auto a = std::make_shared<SpeechArgs>();
+  CLI::App* cmd = speech->add_subcommand("contacts", "Lips and teeth of a spoken text on the mesh");
+  cmd->add_option("--pack", a->pack, "The character")->required();
+  cmd->add_option("--text", a->job.text, "What is said, UTF-8")->required();
+  cmd->add_option("--mood", a->mood, "joy, sadness ... or joy:0.7 (default calm)");
+  add_voice_options(cmd, a.get());
+  cmd->footer("example: caryatid-tool speech contacts --pack woman.pack --text \"Five maps.\"");
+  cmd->callback([a] { contacts(*a); });
+}
+
 }  // namespace
 
 void add_speech(CLI::App& app) {
-  CLI::App* speech = app.add_subcommand("speech", "Voices made ahead of time");
+  CLI::App* speech = app.add_subcommand("speech", "Voices made ahead of time; mouths measured");
   speech->require_subcommand(1);
-  auto b = std::make_shared<SpeechArgs>();
-  CLI::App* cmd = speech->add_subcommand("bake", "Synthesise a text: NAME.wav and NAME.timing");
-  cmd->add_option("text", b->job.text, "What is said, UTF-8")->required();
-  add_voice_options(cmd, b.get());
-  cmd->add_option("-o,--out", b->out, "NAME, with or without .wav")->required();
-  cmd->footer("example: caryatid-tool speech bake \"Press five for maps.\" -o voice/maps");
-  cmd->callback([b] { bake(*b); });
+  add_speech_bake(speech);
+  add_speech_time(speech);
+  add_speech_sync(speech);
+  add_speech_contacts(speech);
 }
 
 }  // namespace caryatid::tool

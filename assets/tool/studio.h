@@ -34,6 +34,7 @@ class Studio {
 
   Picture picture(const Pose& pose);
   const agent::Person& person() const { return *person_; }
+  agent::Person& person() { return *person_; }
 
  private:
   std::uint32_t width_, height_;
