@@ -157,13 +157,17 @@ void sync(const SpeechArgs& a) {
   const auto ms = [](double s) { return 1000.0 * s; };
   std::printf("%.1f s of sound; its place in the file wanders by %.2f ms\n", spoken.end_ms * 1e-3,
               ms(spread_s));
-  std::printf("%zu changes of viseme, %zu seen in the mouth\n", r.sounds, r.seen);
-  std::printf("mouth after sound, ms: p0.5 %.1f, p5 %.1f, p50 %.1f, p95 %.1f, p99.5 %.1f\n",
-              ms(r.percentile_s(0.5)), ms(r.percentile_s(5)), ms(r.percentile_s(50)),
-              ms(r.percentile_s(95)), ms(r.percentile_s(99.5)));
-  std::printf("sound leads by at most 15 ms and lags by at most 45 ms: %.2f %%\n",
-              100.0 * r.share_within(-0.045, 0.015));
-  std::printf("drift: %.2f ms a minute\n", 60.0 * ms(r.drift_s_per_s()));
+  const auto print = [&ms](const char* what, std::span<const double> late_s) {
+    std::printf(
+        "%s, %zu of them, ms after the sound: p0.5 %.0f, p5 %.0f, p50 %.0f, p95 %.0f, p99.5"
+        " %.0f; sound leads by at most 15 and lags by at most 45: %.2f %%\n",
+        what, late_s.size(), ms(bake::percentile(late_s, 0.5)), ms(bake::percentile(late_s, 5)),
+        ms(bake::percentile(late_s, 50)), ms(bake::percentile(late_s, 95)),
+        ms(bake::percentile(late_s, 99.5)), 100.0 * bake::share_within(late_s, -0.045, 0.015));
+  };
+  print("visemes", r.late_s);
+  print("first frames of contacts", r.contact_late_s);
+  std::printf("drift: %.2f ms a minute\n", 60.0 * ms(bake::drift_s_per_s(r)));
   std::printf("lips shut on p b m: %zu of %zu; lower lip at the teeth on f v: %zu of %zu\n", r.shut,
               r.bilabials, r.touching, r.labiodentals);
 }

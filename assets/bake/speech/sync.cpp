@@ -14,8 +14,6 @@ namespace {
 using speech::Contact;
 using speech::Sound;
 
-constexpr double kReach_s = 0.15;  // A change is looked for so far from its sound.
-
 MouthFrame shape_of(const Sound& s) {
   const face::FapFrame f = face::blend_visemes({s.first, s.second, s.blend});
   return {0.0, f.get(3), f.get(4), f.get(5), f.get(6), f.get(16), f.get(17)};
@@ -29,56 +27,94 @@ double distance(const MouthFrame& a, const MouthFrame& b) {
                    d(a.upper_thrust, b.upper_thrust));
 }
 
-struct Change {
-  double sound_s;
-  MouthFrame from, to;
-};
+constexpr double kGrid_s = 0.005;
+constexpr int kHalfWindow = 50;  // 0.25 s.
+constexpr int kMostShift = 30;   // 0.15 s.
 
-// Where the mouth becomes more like `to` than like `from`, nearest to the sound.
-std::optional<double> crossing(std::span<const MouthFrame> frames, const Change& c) {
-  std::optional<double> best;
-  const auto first = std::lower_bound(frames.begin(), frames.end(), c.sound_s - kReach_s,
-                                      [](const MouthFrame& f, double t) { return f.time_s < t; });
-  for (auto f = first; f != frames.end() && f->time_s < c.sound_s + kReach_s; ++f) {
-    if (f == frames.begin()) continue;
-    const MouthFrame& a = *(f - 1);
-    const double before = distance(a, c.to) - distance(a, c.from);
-    const double after = distance(*f, c.to) - distance(*f, c.from);
-    if (before <= 0.0 || after > 0.0) continue;
-    const double step = f->time_s - a.time_s;
-    const double at = a.time_s + step * before / (before - after) + 0.5 * step;
-    if (!best || std::abs(at - c.sound_s) < std::abs(*best - c.sound_s)) best = at;
+double squared(const MouthFrame& a, const MouthFrame& b) {
+  const double d = distance(a, b);
+  return d * d;
+}
+
+// What is shown, and what is heard, every 5 ms from 0 on.
+std::vector<MouthFrame> shown_track(std::span<const MouthFrame> frames, std::size_t size) {
+  std::vector<MouthFrame> out(size);
+  std::size_t f = 0;
+  for (std::size_t i = 0; i < size && !frames.empty(); ++i) {
+    while (f + 1 < frames.size() && frames[f + 1].time_s <= static_cast<double>(i) * kGrid_s) ++f;
+    out[i] = frames[f];
+  }
+  return out;
+}
+
+std::vector<MouthFrame> heard_track(std::span<const TimedPhone> phones, std::size_t size) {
+  std::vector<MouthFrame> out(size);
+  for (std::size_t p = 0; p < phones.size(); ++p) {
+    const speech::Phoneme phoneme = speech::phoneme_of(phones[p].ipa);
+    const double from_s = phones[p].start_s;
+    const double to_s = p + 1 < phones.size() ? phones[p + 1].start_s : from_s + 0.1;
+    // A joint between sounds, not a pause: the mouth knows nothing of it.
+    const bool joint = phoneme.begins.silent() && to_s - from_s < 0.06 && p > 0;
+    const Sound begins = joint ? speech::phoneme_of(phones[p - 1].ipa).ends : phoneme.begins;
+    const Sound ends = joint ? begins : phoneme.ends;
+    for (double t = from_s; t < to_s; t += kGrid_s) {
+      const auto i = static_cast<std::size_t>(t / kGrid_s);
+      if (i < size) out[i] = shape_of(t < 0.45 * from_s + 0.55 * to_s ? begins : ends);
+    }
+  }
+  return out;
+}
+
+// The shift of the mouth that fits best around grid point `at`, in grid steps; positive: it is
+// late.
+int best_shift(std::span<const MouthFrame> shown, std::span<const MouthFrame> heard, int at) {
+  int best = 0;
+  double least = 1e30;
+  // From no shift outwards, so that the smallest of equals wins.
+  for (int k = 0; k <= 2 * kMostShift; ++k) {
+    const int shift = k % 2 == 0 ? k / 2 : -(k + 1) / 2;
+    double sum = 0.0;
+    for (int i = at - kHalfWindow; i <= at + kHalfWindow; ++i)
+      sum +=
+          squared(shown[static_cast<std::size_t>(i + shift)], heard[static_cast<std::size_t>(i)]);
+    if (sum >= least) continue;
+    least = sum;
+    best = shift;
   }
   return best;
 }
 
-// Least of `measure` among the frames in which the sound may be seen: 45 ms before it begins to
-// 15 ms after it ends.
-template <class Measure>
-double least(std::span<const MouthFrame> frames, double from_s, double to_s, Measure measure) {
-  double out = 1e9;
-  for (const MouthFrame& f : frames)
-    if (f.time_s >= from_s - 0.045 && f.time_s <= to_s + 0.015) out = std::min(out, measure(f));
-  return out;
+// The first frame for which `is_so` holds among those in which the sound may be seen: from 45 ms
+// before it begins to 15 ms after it ends.
+template <class Check>
+std::optional<double> first_frame(std::span<const MouthFrame> frames, double from_s, double to_s,
+                                  Check is_so) {
+  const auto first = std::lower_bound(frames.begin(), frames.end(), from_s - 0.045,
+                                      [](const MouthFrame& f, double t) { return f.time_s < t; });
+  for (auto f = first; f != frames.end() && f->time_s <= to_s + 0.015; ++f)
+    if (is_so(*f)) return f->time_s;
+  return std::nullopt;
 }
 
 void count_contact(std::span<const MouthFrame> frames, const Sound& s, double from_s, double to_s,
                    SyncReport* io) {
+  std::optional<double> at;
   if (s.contact == Contact::lips) {
     ++io->bilabials;
-    const auto gap = [](const MouthFrame& f) { return -double{f.upper_lip} - double{f.lower_lip}; };
-    if (least(frames, from_s, to_s, gap) <= 1e-3) ++io->shut;
-  }
-  if (s.contact == Contact::lip_teeth) {
+    at = first_frame(frames, from_s, to_s,
+                     [](const MouthFrame& f) { return f.upper_lip + f.lower_lip >= -1e-3f; });
+    io->shut += at.has_value();
+  } else if (s.contact == Contact::lip_teeth) {
     ++io->labiodentals;
     const MouthFrame target = shape_of(s);
-    const auto away = [&target](const MouthFrame& f) {
-      return double{std::max({std::abs(f.upper_lip - target.upper_lip),
-                              std::abs(f.lower_lip - target.lower_lip),
-                              std::abs(f.lower_thrust - target.lower_thrust)})};
-    };
-    if (least(frames, from_s, to_s, away) <= 5.0) ++io->touching;
+    at = first_frame(frames, from_s, to_s, [&target](const MouthFrame& f) {
+      return std::max({std::abs(f.upper_lip - target.upper_lip),
+                       std::abs(f.lower_lip - target.lower_lip),
+                       std::abs(f.lower_thrust - target.lower_thrust)}) <= 5.0f;
+    });
+    io->touching += at.has_value();
   }
+  if (at) io->contact_late_s.push_back(*at - from_s);
 }
 
 }  // namespace
@@ -108,52 +144,48 @@ std::int64_t find_sound(std::span<const std::int16_t> whole, std::span<const std
 
 SyncReport measure_sync(std::span<const MouthFrame> frames, std::span<const TimedPhone> phones) {
   SyncReport out;
-  std::optional<MouthFrame> before;
-  Sound last{};
-  for (std::size_t i = 0; i < phones.size(); ++i) {
-    const speech::Phoneme p = speech::phoneme_of(phones[i].ipa);
-    const double from_s = phones[i].start_s;
-    const double to_s = i + 1 < phones.size() ? phones[i + 1].start_s : from_s + 0.1;
-    if (p.begins.silent() && to_s - from_s < 0.06) continue;  // A joint, not a pause.
-    const MouthFrame shape = shape_of(p.begins);
-    count_contact(frames, p.begins, from_s, to_s, &out);
-    if (before && p.begins.first != last.first && distance(*before, shape) > 1.0) {
-      ++out.sounds;
-      if (const auto at = crossing(frames, {from_s, *before, shape})) {
-        ++out.seen;
-        out.late_s.push_back(*at - from_s);
-        out.at_s.push_back(from_s);
-      }
-    }
-    before = shape_of(p.ends);
-    last = p.ends;
+  if (frames.empty() || phones.empty()) return out;
+  const auto size = static_cast<std::size_t>(frames.back().time_s / kGrid_s);
+  const std::vector<MouthFrame> shown = shown_track(frames, size),
+                                heard = heard_track(phones, size);
+  for (std::size_t p = 0; p < phones.size(); ++p) {
+    const Sound sound = speech::phoneme_of(phones[p].ipa).begins;
+    if (sound.silent()) continue;
+    const double from_s = phones[p].start_s;
+    const double to_s = p + 1 < phones.size() ? phones[p + 1].start_s : from_s + 0.1;
+    count_contact(frames, sound, from_s, to_s, &out);
+    const auto at = static_cast<int>(0.5 * (from_s + to_s) / kGrid_s);
+    const int reach = kHalfWindow + kMostShift;
+    if (at < reach || at + reach >= static_cast<int>(size)) continue;
+    out.late_s.push_back(kGrid_s * best_shift(shown, heard, at));
+    out.at_s.push_back(from_s);
   }
   return out;
 }
 
-double SyncReport::share_within(double least_s, double most_s) const {
-  const auto within = std::count_if(late_s.begin(), late_s.end(),
-                                    [&](double s) { return s >= least_s && s <= most_s; });
-  return late_s.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(late_s.size());
+double share_within(std::span<const double> values, double least, double most) {
+  const auto within = std::count_if(values.begin(), values.end(),
+                                    [&](double v) { return v >= least && v <= most; });
+  return values.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(values.size());
 }
 
-double SyncReport::percentile_s(double percent) const {
-  if (late_s.empty()) return 0.0;
-  std::vector<double> sorted = late_s;
+double percentile(std::span<const double> values, double percent) {
+  if (values.empty()) return 0.0;
+  std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  return sorted[static_cast<std::size_t>(percent / 100.0 * static_cast<double>(sorted.size() - 1) +
-                                         0.5)];
+  const double at = percent / 100.0 * static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(at + 0.5)];
 }
 
-double SyncReport::drift_s_per_s() const {
-  const auto n = static_cast<double>(late_s.size());
+double drift_s_per_s(const SyncReport& r) {
+  const auto n = static_cast<double>(r.late_s.size());
   if (n < 2.0) return 0.0;
-  const double mean_at = std::accumulate(at_s.begin(), at_s.end(), 0.0) / n;
-  const double mean_late = std::accumulate(late_s.begin(), late_s.end(), 0.0) / n;
+  const double mean_at = std::accumulate(r.at_s.begin(), r.at_s.end(), 0.0) / n;
+  const double mean_late = std::accumulate(r.late_s.begin(), r.late_s.end(), 0.0) / n;
   double both = 0.0, own = 0.0;
-  for (std::size_t i = 0; i < late_s.size(); ++i) {
-    both += (at_s[i] - mean_at) * (late_s[i] - mean_late);
-    own += (at_s[i] - mean_at) * (at_s[i] - mean_at);
+  for (std::size_t i = 0; i < r.late_s.size(); ++i) {
+    both += (r.at_s[i] - mean_at) * (r.late_s[i] - mean_late);
+    own += (r.at_s[i] - mean_at) * (r.at_s[i] - mean_at);
   }
   return own > 0.0 ? both / own : 0.0;
 }

@@ -27,21 +27,23 @@ std::int64_t find_sound(std::span<const std::int16_t> whole, std::span<const std
                         std::int64_t guess, std::int64_t reach);
 
 struct SyncReport {
-  std::size_t sounds = 0;  // Changes from one viseme to another in the text.
-  std::size_t seen = 0;    // Of them, those at which the mouth passes from one shape to the next.
-  std::vector<double> late_s;  // Of each seen one: mouth minus sound; positive: the sound leads.
-  std::vector<double> at_s;
+  // Of every sound that is no silence: how late the mouth is around it. Positive: the sound leads.
+  std::vector<double> late_s, at_s;
   std::size_t bilabials = 0, shut = 0;  // p b m, and those at which the lips meet in a frame.
   std::size_t labiodentals = 0, touching = 0;  // f v, and those that reach the shape of FAP 1's 2.
-
-  double share_within(double least_s, double most_s) const;  // Of late_s.
-  double percentile_s(double percent) const;
-  double drift_s_per_s() const;  // Slope of late_s over at_s.
+  std::vector<double> contact_late_s;  // Of those contacts: the first such frame minus the sound.
 };
 
-// phones: as they are heard in the file, times in the frames' time. The mouth passes from shape A
-// to shape B when its distance to B becomes the smaller one, linear between frames; what a frame
-// shows stays until the next one, which counts as half a frame of lateness.
+double share_within(std::span<const double> values, double least, double most);
+double percentile(std::span<const double> values, double percent);
+// Slope of the least squares line through the report's late_s over at_s.
+double drift_s_per_s(const SyncReport& report);
+
+// phones: as they are heard in the file, in the frames' time. The mouth's track is what the screen
+// shows: each frame until the next one. The sound's track is the shape that the sounding phone
+// would have alone. Within a quarter of a second around each sound the mouth is as late as the
+// shift (-150 to 150 ms, by 5) that brings the two tracks nearest to each other: mouths anticipate
+// and blend, so that single moments of change say little, but shifted as a whole they fit worse.
 SyncReport measure_sync(std::span<const MouthFrame> frames, std::span<const TimedPhone> phones);
 
 }  // namespace caryatid::bake
