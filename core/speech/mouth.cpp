@@ -9,7 +9,7 @@ namespace caryatid::speech {
 namespace {
 
 constexpr float kShortPause_ms = 60.0f;  // Shorter silence is a stop's or a joint's, not a pause.
-constexpr float kRampIn_ms = 55.0f, kRampOut_ms = 60.0f;  // Of a contact.
+constexpr float kRampIn_ms = 48.0f, kRampOut_ms = 52.0f;  // Of a contact.
 constexpr float kFade_ms = 160.0f;       // Of the whole mouth, before the first and after the last.
 constexpr float kLongPause_ms = 450.0f;  // In which the mood gets the mouth back.
 
@@ -58,8 +58,8 @@ constexpr float kInsists[face::kVisemeCount][kGroupCount] = {
 
 // Time constants of the negative exponentials, ms: before the sound and after it. Lips that round
 // start early (Perkell and Matthies 1992); the jaw is the slowest.
-constexpr float kBefore_ms[kGroupCount] = {42.0f, 34.0f, 60.0f, 36.0f};
-constexpr float kAfter_ms[kGroupCount] = {42.0f, 32.0f, 45.0f, 36.0f};
+constexpr float kBefore_ms[kGroupCount] = {28.0f, 22.0f, 40.0f, 36.0f};
+constexpr float kAfter_ms[kGroupCount] = {28.0f, 22.0f, 32.0f, 36.0f};
 
 // A stretch of time with one sound.
 struct Segment {
