@@ -52,6 +52,16 @@ std::string bap_text(const std::vector<body::BapFrame>& frames, const std::strin
   return text;
 }
 
+void print_fit(const char* name, const bake::CycleCurves& curves) {
+  const bake::NormativeFit fit = bake::fit_to_norm(curves);
+  const auto percent = [](float share) { return std::lround(100.0f * share); };
+  std::printf(
+      "%s: within 2 SD of the norm over %ld %% (hip), %ld %% (knee), %ld %% (ankle), "
+      "%ld %% (list), %ld %% (rotation) of the cycle\n",
+      name, percent(fit.hip), percent(fit.knee), percent(fit.ankle), percent(fit.list),
+      percent(fit.rotation));
+}
+
 void synth(const SynthArgs& a) {
   const body::GaitStyle style = a.run ? body::running_style() : style_named(a.mood);
   const std::string name = a.run ? "run" : a.mood;
@@ -65,6 +75,8 @@ void synth(const SynthArgs& a) {
   if (!a.plot.empty()) {
     const bake::CycleCurves smooth = bake::walked_curves(style);
     const bake::CycleCurves linear = bake::walked_curves(style, body::GaitInterpolation::linear);
+    print_fit("smooth", smooth);
+    print_fit("linear", linear);
     const bake::NamedCurves curves[] = {{name, &smooth}, {"linear", &linear}};
     write_text(a.plot, bake::curves_svg(curves));
   }

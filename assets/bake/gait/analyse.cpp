@@ -21,7 +21,7 @@ using Series = std::vector<float>;
 struct Signals {
   std::array<Series, 2> ankle_ahead;  // Of the pelvis.
   std::array<Series, 2> toe_ahead;
-  std::array<Series, 2> thigh, knee, foot_pitch;
+  std::array<Series, 2> thigh, knee, foot_pitch, list, rotation;
   std::array<Series, 2> toe_height, ankle_height;
   Series trunk_pitch, head_pitch;
   std::array<Series, 2> arm, elbow;
@@ -63,6 +63,9 @@ Signals signals_of(const Motion& m) {
       const float thigh = forward(leg.knee - leg.hip);
       s.thigh[k].push_back(thigh);
       s.knee[k].push_back(thigh - forward(leg.ankle - leg.knee));
+      const PelvisTurn pelvis = pelvis_turn(leg.hip, f.side[1 - k].hip, ahead);
+      s.list[k].push_back(pelvis.list);
+      s.rotation[k].push_back(pelvis.rotation);
       const Vec3 foot = leg.toe - leg.ankle;
       s.foot_pitch[k].push_back(std::atan2(foot.y, glm::dot(foot, ahead)) * kDegrees);
       s.ankle_ahead[k].push_back(glm::dot(leg.ankle - f.pelvis, ahead));
@@ -171,6 +174,8 @@ CycleCurves mean_curves(const Signals& s, const std::vector<Stride>& strides) {
       const float thigh = sample(s.thigh[k], t, percent), knee = sample(s.knee[k], t, percent);
       c.thigh[i] += thigh / n;
       c.knee[i] += knee / n;
+      c.list[i] += sample(s.list[k], t, percent) / n;
+      c.rotation[i] += sample(s.rotation[k], t, percent) / n;
       c.ankle[i] += (sample(s.foot_pitch[k], t, percent) - flat - thigh + knee) / n;
     }
   }
@@ -357,6 +362,8 @@ CycleCurves walked_curves(const body::GaitStyle& style, body::GaitInterpolation 
     c.thigh[i] = angles.thigh;
     c.knee[i] = angles.knee;
     c.ankle[i] = angles.ankle;
+    c.list[i] = angles.list;
+    c.rotation[i] = angles.rotation;
   }
   return c;
 }
@@ -366,9 +373,14 @@ NormativeFit fit_to_norm(const CycleCurves& c) {
   for (std::size_t i = 0; i < 51; ++i) {
     const NormativeRow& n = normative_walk()[i];
     const float hip = c.thigh[i] + n.pelvis_tilt;
-    fit.hip += std::abs(hip - n.hip) <= 2.0f * n.hip_sd ? 1.0f / 51.0f : 0.0f;
-    fit.knee += std::abs(c.knee[i] - n.knee) <= 2.0f * n.knee_sd ? 1.0f / 51.0f : 0.0f;
-    fit.ankle += std::abs(c.ankle[i] - n.ankle) <= 2.0f * n.ankle_sd ? 1.0f / 51.0f : 0.0f;
+    const auto within = [](float value, float mean, float sd) {
+      return std::abs(value - mean) <= 2.0f * sd ? 1.0f / 51.0f : 0.0f;
+    };
+    fit.hip += within(hip, n.hip, n.hip_sd);
+    fit.knee += within(c.knee[i], n.knee, n.knee_sd);
+    fit.ankle += within(c.ankle[i], n.ankle, n.ankle_sd);
+    fit.list += within(c.list[i], n.list, n.list_sd);
+    fit.rotation += within(c.rotation[i], n.rotation, n.rotation_sd);
   }
   return fit;
 }

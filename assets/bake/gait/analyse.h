@@ -30,6 +30,7 @@ struct Stride {
 // Degrees on 51 points of the cycle (every 2 %): mean of all strides.
 struct CycleCurves {
   std::array<float, 51> thigh{}, knee{}, ankle{};
+  std::array<float, 51> list{}, rotation{};  // Pelvis: side of the leg up, forward.
 };
 
 struct GaitAnalysis {
@@ -54,12 +55,12 @@ CycleCurves walked_curves(const body::GaitStyle& style,
 
 // Share (0..1) of the cycle at which a curve lies within two standard deviations of the norm.
 struct NormativeFit {
-  float hip = 0.0f, knee = 0.0f, ankle = 0.0f;
+  float hip = 0.0f, knee = 0.0f, ankle = 0.0f, list = 0.0f, rotation = 0.0f;
 };
 NormativeFit fit_to_norm(const CycleCurves& curves);
 
 std::string report_json(const GaitAnalysis& analysis);
-// Thigh, knee and ankle over the cycle before the normative bands.
+// Thigh, knee, ankle and the two turns of the pelvis over the cycle before the normative bands.
 struct NamedCurves {
   std::string name;
   const CycleCurves* curves = nullptr;

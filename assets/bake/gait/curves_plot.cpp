@@ -16,28 +16,35 @@ struct Panel {
 };
 
 const std::array<float, 51>& curve_of(const CycleCurves& c, std::size_t panel) {
-  return panel == 0 ? c.thigh : (panel == 1 ? c.knee : c.ankle);
+  const std::array<float, 51>* curves[] = {&c.thigh, &c.knee, &c.ankle, &c.list, &c.rotation};
+  return *curves[panel];
 }
 
 }  // namespace
 
 std::string curves_svg(std::span<const NamedCurves> curves) {
-  constexpr std::array<Panel, 3> kPanels = {Panel{"thigh against the vertical, degrees", -40, 50},
+  constexpr std::array<Panel, 5> kPanels = {Panel{"thigh against the vertical, degrees", -40, 50},
                                             Panel{"knee flexion, degrees", -15, 110},
-                                            Panel{"ankle dorsiflexion, degrees", -45, 45}};
+                                            Panel{"ankle dorsiflexion, degrees", -45, 45},
+                                            Panel{"pelvic list, side of the leg up", -20, 20},
+                                            Panel{"pelvic rotation, side forward", -20, 20}};
   constexpr std::array<const char*, 6> kColors = {"#c33", "#26c", "#2a2", "#a4a", "#c80", "#066"};
   std::ostringstream out;
   out << "<svg xmlns='http://www.w3.org/2000/svg' width='" << kLeft + kWide + 90 << "' height='"
-      << 3 * (kHigh + 80) + 20 << "' font-family='sans-serif' font-size='13'>"
+      << kPanels.size() * (kHigh + 80) + 20 << "' font-family='sans-serif' font-size='13'>"
       << "<rect width='100%' height='100%' fill='white'/>\n";
-  for (std::size_t p = 0; p < 3; ++p) {
+  for (std::size_t p = 0; p < kPanels.size(); ++p) {
     const Panel& panel = kPanels[p];
     out << "<g transform='translate(0," << static_cast<float>(p) * (kHigh + 80) << ")'>\n<polygon "
         << "fill='#ddd' points='";
     const auto mean_and_sd = [&](std::size_t i) {
       const NormativeRow& n = normative_walk()[i];
-      if (p == 0) return std::pair{n.hip - n.pelvis_tilt, n.hip_sd};
-      return p == 1 ? std::pair{n.knee, n.knee_sd} : std::pair{n.ankle, n.ankle_sd};
+      if (p == 0) return std::pair<float, float>{n.hip - n.pelvis_tilt, n.hip_sd};
+      const std::pair<float, float> norms[] = {{n.knee, n.knee_sd},
+                                               {n.ankle, n.ankle_sd},
+                                               {n.list, n.list_sd},
+                                               {n.rotation, n.rotation_sd}};
+      return norms[p - 1];
     };
     for (std::size_t i = 0; i < 51; ++i) {
       const auto [mean, sd] = mean_and_sd(i);
@@ -66,7 +73,7 @@ std::string curves_svg(std::span<const NamedCurves> curves) {
     }
     out << "<text x='" << kLeft << "' y='24'>" << panel.title << "</text></g>\n";
   }
-  out << "<text x='" << kLeft << "' y='" << 3 * (kHigh + 80)
+  out << "<text x='" << kLeft << "' y='" << kPanels.size() * (kHigh + 80)
       << "'>percent of the cycle from heel strike; grey: norm and two standard deviations "
          "(Schwartz 2008)</text></svg>\n";
   return out.str();

@@ -121,6 +121,12 @@ WalkMeasures measure_walk(const body::Skeleton& skeleton, std::span<const body::
   return m;
 }
 
+PelvisTurn pelvis_turn(Vec3 hip, Vec3 other_hip, Vec3 ahead) {
+  const Vec3 way = hip - other_hip;
+  const float out = std::abs(glm::dot(way, glm::cross(Vec3{0, 1, 0}, ahead)));
+  return {std::atan2(way.y, out) * kDegrees, std::atan2(glm::dot(way, ahead), out) * kDegrees};
+}
+
 LegAngles leg_angles(const body::Skeleton& s, const body::BapFrame& frame, bool left) {
   const std::vector<Affine> pose = posed(s, frame);
   const auto side = [&](HanimJoint l) { return left ? l : body::mirrored(l); };
@@ -135,6 +141,10 @@ LegAngles leg_angles(const body::Skeleton& s, const body::BapFrame& frame, bool 
   a.knee = a.thigh - forward(shank) * kDegrees;
   a.foot_pitch = std::atan2(toe.y, glm::dot(toe, ahead)) * kDegrees;
   a.ankle = a.foot_pitch - a.thigh + a.knee;
+  const Vec3 other = joint_position(s, pose, body::mirrored(side(HanimJoint::l_hip)));
+  const PelvisTurn pelvis = pelvis_turn(at(HanimJoint::l_hip), other, pose[0].direction({0, 0, 1}));
+  a.list = pelvis.list;
+  a.rotation = pelvis.rotation;
   return a;
 }
 

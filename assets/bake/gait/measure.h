@@ -38,10 +38,17 @@ struct WalkMeasures {
 WalkMeasures measure_walk(const body::Skeleton& skeleton, std::span<const body::BapFrame> frames,
                           float fps, std::span<const SolePoint> soles);
 
+// How the line from the other hip to this one rises and leads, degrees.
+struct PelvisTurn {
+  float list = 0.0f, rotation = 0.0f;
+};
+PelvisTurn pelvis_turn(Vec3 hip, Vec3 other_hip, Vec3 ahead);
+
 // Anatomical curves of one leg from joint centres, degrees: thigh against the vertical in the
 // direction of walking, knee flexion, ankle dorsiflexion (0 where the rest pose has it).
 struct LegAngles {
   float thigh = 0.0f, knee = 0.0f, ankle = 0.0f, foot_pitch = 0.0f;
+  float list = 0.0f, rotation = 0.0f;  // Pelvis: side of the leg up, forward.
 };
 LegAngles leg_angles(const body::Skeleton& skeleton, const body::BapFrame& frame, bool left);
 

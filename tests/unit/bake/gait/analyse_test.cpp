@@ -85,6 +85,8 @@ TEST(Analyse, NormalWalkLiesWithinTheNorm) {
   EXPECT_GE(fit.hip, 0.9f);
   EXPECT_GE(fit.knee, 0.9f);
   EXPECT_GE(fit.ankle, 0.9f);
+  EXPECT_GE(fit.list, 0.9f);
+  EXPECT_GE(fit.rotation, 0.9f);
 }
 
 TEST(Analyse, ReadsAngleCurves) {
