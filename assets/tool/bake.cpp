@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "assets/bake/anthropometry/measures.h"
 #include "assets/bake/face/fat.h"
 #include "assets/bake/gait/soles.h"
 #include "assets/bake/head/foreign_head.h"
@@ -23,7 +24,9 @@ namespace {
 
 struct BakeArgs {
   std::string recipe, out, base, points, ranges;
+  std::string anthropometry;  // Where the measurements go; empty: printed.
   bool licences = false, small = false;
+  CLI::Option* measured = nullptr;
 };
 
 // Says what is under way: on a terminal at once, in a pipe nothing.
@@ -85,6 +88,23 @@ void print_licences(const bake::Character& c) {
                 l.author.c_str());
 }
 
+// Measurements of the head with the norms beside them, as a table or into a file.
+void report_anthropometry(const BakeArgs& a, const bake::Character& character) {
+  if (a.measured->count() == 0) return;
+  const bake::anthropometry::MeasuredHead head = bake::anthropometry::find_landmarks(character);
+  const auto measurements = bake::anthropometry::measure(head);
+  if (a.anthropometry.empty())
+    std::fputs(bake::anthropometry::as_table(measurements).c_str(), stdout);
+  else
+    bake::write_file(a.anthropometry, bake::anthropometry::as_json(head, measurements));
+}
+
+void add_anthropometry(CLI::App* cmd, BakeArgs* a) {
+  a->measured = cmd->add_option("--anthropometry", a->anthropometry,
+                                "Measure the head: a table with norms, or into FILE.json");
+  a->measured->expected(0, 1)->type_name("[FILE.json]");
+}
+
 void write_pack(const bake::Character& character, const bake::PackOptions& options,
                 const std::string& path) {
   bake::PackReport report;
@@ -110,6 +130,7 @@ void bake_character(const BakeArgs& a) {
   bake::add_sole_points(character);
   print_facts(character);
   if (a.licences) print_licences(character);
+  report_anthropometry(a, character);
   progress.step("face animation tables");
   const auto ranges =
       bake::fat::read_working_ranges(recipe_file.parent_path() / "fap_working_ranges.csv");
@@ -155,6 +176,7 @@ void bake_head(const BakeArgs& a) {
   for (const std::string& note : head.notes) std::printf("  %s\n", note.c_str());
   head.character.licences = bake::foreign::licences_of(text, a.recipe);
   if (a.licences) print_licences(head.character);
+  report_anthropometry(a, head.character);
   progress.step("occlusion");
   bake::bake_occlusion(head.character);
   progress.step("simplify and pack");
@@ -243,6 +265,7 @@ void add_bake(CLI::App& app) {
   character->add_flag("--licences", a->licences, "Print the licence of every source");
   character->add_flag("--small", a->small,
                       "Head and shoulders without refinements: the agent's built-in face");
+  add_anthropometry(character, a.get());
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");
   character->callback([a] { bake_character(*a); });
@@ -256,6 +279,7 @@ void add_bake(CLI::App& app) {
       "--ranges", h->ranges,
       "Working ranges of the FAPs (default: assets/characters/fap_working_ranges.csv)");
   head->add_flag("--licences", h->licences, "Print the licence of every source");
+  add_anthropometry(head, h.get());
   head->footer(kPointsHelp);
   head->callback([h] { bake_head(*h); });
   auto p = std::make_shared<BakeArgs>();

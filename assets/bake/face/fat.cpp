@@ -6,6 +6,7 @@
 
 #include "assets/bake/face/follow.h"
 #include "assets/bake/face/movement.h"
+#include "assets/bake/face/pupils.h"
 #include "assets/bake/face/tongue.h"
 #include "core/face/fat.h"
 
@@ -196,10 +197,13 @@ void build_fat(Character& character, const Head& head, const WorkingRanges& rang
   character.channels.clear();
   Tables tables(character, head);
   for (const Movement& movement : movements) tables.add(movement);
-  for (const TongueMove& move : tongue_moves(character, head, reach))
+  for (const PartMove& move : tongue_moves(character, head, reach))
     character.objects[move.object].moves[tables.add_channel(move.channel)] = move.moves;
-  // Turned, not deformed: eyeballs, pupils, head.
-  for (const auto& [first, last] : {std::pair{23, 30}, std::pair{48, 50}})
+  const std::vector<PartMove> pupils = pupil_moves(character, head, reach);
+  for (const PartMove& move : pupils)
+    character.objects[move.object].moves[tables.add_channel(move.channel)] = move.moves;
+  // Turned, not deformed: eyeballs and head; pupils where there are no eyes.
+  for (const auto& [first, last] : {std::pair{23, pupils.empty() ? 30 : 28}, std::pair{48, 50}})
     for (int fap = first; fap <= last; ++fap)
       for (const float end : {reach(fap).low, reach(fap).high})
         if (end != 0.0f)

@@ -18,6 +18,13 @@ struct Movement {
   float partner_to = 0;
 };
 
+// What one direction of a FAP does to an object that is not skin: tongue, irises.
+struct PartMove {
+  std::uint32_t object = 0;
+  pack::Channel channel{};
+  std::vector<Move> moves;  // Vertices ascending.
+};
+
 // Metres for one unit of the FAP on this head: FAPU / 1024.
 float metres_per_unit(const Head& head, int fap);
 

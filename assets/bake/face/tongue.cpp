@@ -47,9 +47,9 @@ Vec3 rolled(const Tongue& tongue, Vec3 p, float angle) {
 
 }  // namespace
 
-std::vector<TongueMove> tongue_moves(const Character& character, const Head& head,
-                                     const ReachOf& reach) {
-  std::vector<TongueMove> out;
+std::vector<PartMove> tongue_moves(const Character& character, const Head& head,
+                                   const ReachOf& reach) {
+  std::vector<PartMove> out;
   for (std::uint32_t o = 0; o < character.objects.size(); ++o) {
     if (character.objects[o].name != "tongue") continue;
     Tongue tongue{.mesh = character.objects[o].mesh};
@@ -62,7 +62,7 @@ std::vector<TongueMove> tongue_moves(const Character& character, const Head& hea
     const auto add = [&](int fap, const std::function<Vec3(Vec3 p, float m)>& displace) {
       for (const float end : {reach(fap).low, reach(fap).high}) {
         if (end == 0.0f) continue;
-        TongueMove move{o, {static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f}, {}};
+        PartMove move{o, {static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f}, {}};
         if (fap == 3) move.channel.to = 400.0f;  // Flat by then; the jaw goes on.
         const float amount = end * metres_per_unit(head, fap);
         for (std::uint32_t i = 0; i < tongue.mesh.position_m.size(); ++i)

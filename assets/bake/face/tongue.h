@@ -7,14 +7,8 @@
 
 namespace caryatid::bake::fat {
 
-struct TongueMove {
-  std::uint32_t object = 0;
-  pack::Channel channel{};
-  std::vector<Move> moves;
-};
-
 // Empty when the character has no tongue (an object named "tongue" in which point 6.1 lies).
-std::vector<TongueMove> tongue_moves(const Character& character, const Head& head,
-                                     const ReachOf& reach);
+std::vector<PartMove> tongue_moves(const Character& character, const Head& head,
+                                   const ReachOf& reach);
 
 }  // namespace caryatid::bake::fat
