@@ -15,11 +15,20 @@ foreach(source ${fuzz_sources})
   endif()
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE caryatid_agent caryatid_flags)
-  if(reader STREQUAL mesh)  # Readers of the content tools, which these presets do not build.
+  # Readers of the content tools, which these presets do not build.
+  if(reader STREQUAL mesh OR reader STREQUAL points)
     file(GLOB mesh_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/assets/bake/mesh_io/*.cpp
       ${CMAKE_SOURCE_DIR}/assets/bake/simplify/*.cpp)
     target_sources(${name} PRIVATE ${mesh_sources})
     target_include_directories(${name} SYSTEM PRIVATE /usr/include/eigen3)
+  endif()
+  if(reader STREQUAL points)
+    foreach(part points_file placed_head surface_graph skin_edit openings)
+      target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/assets/bake/head/${part}.cpp)
+    endforeach()
+    target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/assets/bake/face/skin.cpp
+      ${CMAKE_SOURCE_DIR}/assets/bake/face/smooth.cpp)
+    target_compile_definitions(${name} PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   endif()
   if(reader STREQUAL command)
     target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware-app/command.cpp

@@ -212,6 +212,25 @@ std::vector<std::uint32_t> take_parts(const Source& source, const Frame& frame, 
   return local;
 }
 
+// A head as wide as its eyes are apart is one; what reaches far beyond is not.
+void refuse_giants(const PointList& points, const PlacedHead& head, Vec3 lids_m) {
+  constexpr float kFarthest_m = 0.5f, kLargest_m = 3.0f;
+  for (const GivenPoint& p : points.points)
+    if (!(glm::length(head.place_m.at(p.id) - lids_m) < kFarthest_m))
+      points.fail(&p, "point " + name_of(p.id) +
+                          " lies far from the eyes, measured by the distance of the eyes (points "
+                          "3.1-3.12); one of them is wrong");
+  const auto check = [&](const std::vector<Vec3>& position_m) {
+    for (const Vec3& p : position_m)
+      if (!(glm::length(p - lids_m) < kLargest_m))
+        points.fail(nullptr,
+                    "with pupils 63 mm apart the mesh would be meters wide; check the "
+                    "points of the eyes (3.1-3.12)");
+  };
+  check(head.position_m);
+  for (const LoosePart& part : head.parts) check(part.position_m);
+}
+
 void refuse_shared(const PointList& points, const PlacedHead& head) {
   std::map<std::uint32_t, PointId> taken;
   for (const auto& [id, v] : head.vertex) {
@@ -251,6 +270,7 @@ PlacedHead place_head(const Surface& surface, const PointList& points) {
     head.place_m[p.id] = Vec3(frame.apply(source.place(p) - lids)) + shift;
     if (!off_skin(p.id)) head.vertex[p.id] = local[source.vertex(p)];
   }
+  refuse_giants(points, head, shift);
   refuse_shared(points, head);
   face_outwards(head);
   char text[96];
