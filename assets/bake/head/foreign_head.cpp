@@ -151,7 +151,7 @@ class Builder {
 
   // An eyeball of few triangles gets more, on the same facets: its pupil has to grow within them.
   static LoosePart finer(LoosePart part) {
-    constexpr std::size_t kEnough = 1200;
+    constexpr std::size_t kEnough = 900;
     while (part.triangles.size() < kEnough) {
       std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
       const auto middle = [&](std::uint32_t a, std::uint32_t b) {

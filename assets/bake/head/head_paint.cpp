@@ -85,10 +85,10 @@ class Face {
     c = glm::mix(c, kHair * (0.8f + 0.4f * noise(p * Vec3(900, 250, 900))), hair(p));
     c = glm::mix(c, kLips * (0.94f + 0.12f * noise(p * Vec3(1500, 500, 500))), lip(p));
     for (std::size_t s = 0; s < 2; ++s) {
-      const float lash = smooth(0.0016f, 0.0004f, distance_to(upper_rim_[s], p, false));
+      const float lash = smooth(0.0012f, 0.0003f, distance_to(upper_rim_[s], p, false));
       const float rim = smooth(0.0018f, 0.0f, distance_to(rim_[s], p, false));
       c = glm::mix(c, Vec3(0.62f, 0.36f, 0.32f), 0.5f * rim);
-      c = glm::mix(c, kHair, 0.75f * lash);
+      c = glm::mix(c, kHair, 0.6f * lash);
       c = glm::mix(c, kHair, brow(s, p));
     }
     return c;
