@@ -21,6 +21,14 @@ bool off_skin(PointId id) {
          (id.first == 9 && id.second >= 8 && id.second <= 11) || id == PointId{11, 5};
 }
 
+void refuse_strangers(const Surface& surface, const PointList& points) {
+  for (const GivenPoint& p : points.points)
+    if (p.vertex && *p.vertex >= surface.position.size())
+      points.fail(&p, "there is no vertex " + std::to_string(*p.vertex + 1) + " for point " +
+                          name_of(p.id) + "; the mesh has " +
+                          std::to_string(surface.position.size()));
+}
+
 void require_points(const PointList& points) {
   std::string missing;
   for (const PointId& id : kRequired)
@@ -38,7 +46,7 @@ class Source {
     if (repaired_.triangles.empty())
       points.fail(nullptr, "the mesh that the points belong to has no triangle");
     part_ = parts_of(repaired_.position.size(), repaired_.triangles);
-    find_skin(surface);
+    find_skin();
   }
 
   // Vertex of the repaired surface: the one that is named, or the nearest of the skin.
@@ -78,13 +86,9 @@ class Source {
     return best;
   }
 
-  void find_skin(const Surface& surface) {
+  void find_skin() {
     std::map<std::uint32_t, int> votes;
     for (const GivenPoint& p : points_.points) {
-      if (p.vertex && *p.vertex >= surface.position.size())
-        points_.fail(&p, "there is no vertex " + std::to_string(*p.vertex + 1) + " for point " +
-                             name_of(p.id) + "; the mesh has " +
-                             std::to_string(surface.position.size()));
       if (off_skin(p.id)) continue;
       const std::uint32_t v =
           p.vertex ? report_.vertex_of_input[*p.vertex] : nearest(p.position, false);
@@ -101,6 +105,27 @@ class Source {
   std::vector<std::uint32_t> part_;
   std::uint32_t skin_ = 0;
 };
+
+// What a board can draw of one head. A scan has a hundred times that.
+constexpr std::uint32_t kMostTriangles = 24000;
+
+// A finer mesh is simplified first, its points staying where they are; they are named by place
+// then.
+Surface thinned(const Surface& surface, PointList& points) {
+  if (surface.triangles.size() <= kMostTriangles) return surface;
+  RepairReport report;
+  const Surface whole = repair_surface(surface, &report);
+  CollapseOptions options;
+  options.target_triangles = kMostTriangles;
+  for (GivenPoint& p : points.points) {
+    if (!p.vertex) continue;
+    const std::uint32_t v = report.vertex_of_input[*p.vertex];
+    if (v < whole.position.size()) options.locked.push_back(v);
+    p.position = surface.position[*p.vertex];
+    p.vertex.reset();
+  }
+  return collapse_edges(whole, options);
+}
 
 // Turns and scale from the file's frame to ours; rows of `axes` are left, up, forward.
 struct Frame {
@@ -250,8 +275,11 @@ void refuse_shared(const PointList& points, const PlacedHead& head) {
 
 std::span<const PointId> required_points() { return kRequired; }
 
-PlacedHead place_head(const Surface& surface, const PointList& points) {
-  require_points(points);
+PlacedHead place_head(const Surface& given, const PointList& given_points) {
+  require_points(given_points);
+  PointList points = given_points;
+  refuse_strangers(given, points);
+  const Surface surface = thinned(given, points);
   const Source source(surface, points);
   const Frame frame = frame_of(points, source);
   const auto raw = [&](int group, int index) { return source.place(*points.find({group, index})); };
@@ -265,6 +293,9 @@ PlacedHead place_head(const Surface& surface, const PointList& points) {
   head.eye_separation_m = kPupilDistance_m;
   const std::string repairs = source.report().text();
   if (!repairs.empty()) head.notes.push_back("mesh: " + repairs);
+  if (surface.triangles.size() < given.triangles.size())
+    head.notes.push_back("mesh: " + std::to_string(given.triangles.size()) +
+                         " triangles simplified to " + std::to_string(surface.triangles.size()));
   const auto local = take_parts(source, frame, lids, shift, head);
   for (const GivenPoint& p : points.points) {
     head.place_m[p.id] = Vec3(frame.apply(source.place(p) - lids)) + shift;

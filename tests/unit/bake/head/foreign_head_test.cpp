@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "assets/bake/face/fat.h"
@@ -98,6 +99,32 @@ void expect_exact_faps(const Face& face) {
 }
 
 TEST(ForeignHead, EveryFapMovesItsPointByItsAmount) { expect_exact_faps(coarse()); }
+
+// Four triangles for one, on the same facets.
+Surface finer(const Surface& s) {
+  Surface out{s.position, {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [found, fresh] =
+        middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(out.position.size()));
+    if (fresh) out.position.push_back(0.5 * (s.position[a] + s.position[b]));
+    return found->second;
+  };
+  for (const auto& [a, b, c] : s.triangles) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const Triangle& t : {Triangle{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
+      out.triangles.push_back(t);
+  }
+  return out;
+}
+
+TEST(ForeignHead, AFineMeshIsSimplifiedFirstAndMovesAsWell) {
+  const Surface fine = finer(finer(finer(read_mesh(kHeads + "coarse_head.obj"))));
+  ASSERT_GT(fine.triangles.size(), 100000u);
+  ForeignHead f = build_foreign_head(fine, points_of("coarse_head"), "fine", ranges());
+  EXPECT_LT(f.character.objects.front().mesh.triangles.size(), 25000u);
+  expect_exact_faps({std::move(f.character), std::move(f.head)});
+}
 
 TEST(ForeignHead, HeadsOfOthersMoveByTheSameAmounts) {
   CARYATID_NEED_TEST_DATA(heads, "heads");
