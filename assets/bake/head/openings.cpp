@@ -20,11 +20,17 @@ Chain joined(Chain a, const Chain& b) {
   return a;
 }
 
-// The way through all of the points in turn.
+// The way through all of the points in turn, which never comes to one place twice.
 Chain way_through(const PointList& points, const PlacedHead& head, const SurfaceGraph& graph,
-                  const std::vector<PointId>& through, const std::vector<bool>& barred = {}) {
+                  const std::vector<PointId>& through, std::vector<bool> barred = {}) {
   Chain out;
+  barred.resize(head.position_m.size(), false);
   for (std::size_t i = 1; i < through.size(); ++i) {
+    for (const std::uint32_t v : out) barred[v] = true;
+    if (i > 1 && barred[head.vertex.at(through[i])])
+      points.fail(points.find(through[i]),
+                  "the line to point " + name_of(through[i]) +
+                      " comes by it too early; check the points beside it");
     const Chain leg = graph.way(head.vertex.at(through[i - 1]), head.vertex.at(through[i]), barred);
     if (leg.empty())
       points.fail(points.find(through[i]), "there is no way along the skin from point " +

@@ -256,15 +256,24 @@ void refuse_giants(const PointList& points, const PlacedHead& head, Vec3 lids_m)
   for (const LoosePart& part : head.parts) check(part.position_m);
 }
 
+// Lips that are modelled shut have one vertex for both middles, or both quarter points.
+bool may_share(PointId a, PointId b) {
+  constexpr PointId kPairs[][2] = {{{2, 2}, {2, 3}}, {{2, 6}, {2, 8}}, {{2, 7}, {2, 9}}};
+  for (const auto& pair : kPairs)
+    if (a == pair[0] && b == pair[1]) return true;
+  return false;
+}
+
 void refuse_shared(const PointList& points, const PlacedHead& head) {
+  const auto matters = [](PointId id) {
+    return (id.first == 2 && id.second < 10) || (id.first == 8 && id.second < 9) ||
+           std::find(std::begin(kRequired), std::end(kRequired), id) != std::end(kRequired);
+  };
   std::map<std::uint32_t, PointId> taken;
   for (const auto& [id, v] : head.vertex) {
+    if (!matters(id)) continue;
     const auto [other, fresh] = taken.emplace(v, id);
-    // Lips that are modelled shut have one vertex for both.
-    const bool lips = other->second.first == 2 && id.first == 2 && other->second.second > 1 &&
-                      id.second > 1 && id.second < 10;
-    if (!fresh && !lips &&
-        std::find(std::begin(kRequired), std::end(kRequired), id) != std::end(kRequired))
+    if (!fresh && !may_share(other->second, id))
       points.fail(points.find(id),
                   "points " + name_of(other->second) + " and " + name_of(id) +
                       " lie on one vertex; the mesh is too coarse there, or one is wrong");
