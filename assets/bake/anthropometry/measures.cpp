@@ -11,8 +11,7 @@ namespace caryatid::bake::anthropometry {
 namespace {
 
 constexpr float kDegrees = 57.29577951f;
-constexpr const char* kFarkas =
-    "Farkas 1994, North American white adults (recalled, not verified)";
+constexpr const char* kFarkas = "Farkas 1994, North American white adults (recalled, not verified)";
 constexpr const char* kAnsur = "ANSUR II 2012, adults";
 constexpr const char* kNone = "";
 

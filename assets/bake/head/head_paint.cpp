@@ -76,6 +76,8 @@ class Face {
       lips_.push_back(head.position_m[openings.lips[0].row[0][c]]);
     for (std::size_t c = fat::kLipColumns; c-- > 0;)
       lips_.push_back(head.position_m[openings.lips[1].row[0][c]]);
+    for (std::size_t s = 0; s < 2; ++s)
+      for (const std::uint32_t v : openings.lips[s].row[1]) inner_[s].push_back(head.position_m[v]);
     hair_ = head.vertex.contains({11, 1}) && head.vertex.contains({11, 2}) &&
             head.vertex.contains({11, 3});
   }
@@ -113,7 +115,10 @@ class Face {
   float lip(Vec3 p) const {
     if (p.z < lips_.front().z - 0.03f) return 0.0f;
     const float d = distance_to(lips_, p, true);
-    return smooth(-0.0009f, 0.0009f, inside(lips_, p) ? d : -d);
+    // Never thinner than this: at the corners a coarse outer contour cuts across.
+    const float line = std::min(distance_to(inner_[0], p, true), distance_to(inner_[1], p, true));
+    return std::max(smooth(-0.0009f, 0.0009f, inside(lips_, p) ? d : -d),
+                    smooth(0.0026f, 0.0012f, line));
   }
 
   float brow(std::size_t s, Vec3 p) const {
@@ -146,7 +151,8 @@ class Face {
 
   const PlacedHead& head_;
   std::array<std::vector<Vec3>, 2> brow_, upper_rim_, rim_;
-  std::vector<Vec3> lips_;
+  std::vector<Vec3> lips_;                  // The outer contour, closed.
+  std::array<std::vector<Vec3>, 2> inner_;  // The inner one, by side.
   bool hair_ = false;
 };
 
