@@ -76,38 +76,45 @@ RasterView whole_of(const bake::Surface& surface, double yaw_rad, double pitch_r
   return view;
 }
 
+Raster::Raster(std::uint32_t width, std::uint32_t height, bool wireframe)
+    : wireframe_(wireframe),
+      large_(2 * width, 2 * height, wireframe ? 250 : 32),
+      depth_(std::size_t{large_.width} * large_.height, -std::numeric_limits<double>::max()) {}
+
+void Raster::add(const std::array<Vec3d, 3>& p) {
+  constexpr double kHalfLine = 1.8;
+  const Face face(p);
+  const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
+  if (face.empty() || x1 < 0 || y1 < 0 || x0 >= width() || y0 >= height()) return;
+  const auto cut = [](double v, double size) {
+    return static_cast<std::uint32_t>(std::clamp(v, 0.0, size - 1));
+  };
+  const std::uint8_t shade = wireframe_ ? 250 : grey_of(p);
+  for (std::uint32_t y = cut(y0, height()); y <= cut(y1 + 1, height()); ++y)
+    for (std::uint32_t x = cut(x0, width()); x <= cut(x1 + 1, width()); ++x) {
+      double z = 0, edge = 0;
+      const std::size_t at = std::size_t{y} * large_.width + x;
+      if (!face.at(x + 0.5, y + 0.5, &z, &edge) || z < depth_[at]) continue;
+      depth_[at] = z;
+      const std::uint8_t value = wireframe_ && edge < kHalfLine ? 20 : shade;
+      std::fill_n(large_.rgb.begin() + static_cast<std::ptrdiff_t>(3 * at), 3, value);
+    }
+}
+
 Picture draw_surface(const bake::Surface& surface, const RasterView& view, bool wireframe,
                      std::uint32_t side) {
-  Picture large(2 * side, 2 * side, wireframe ? 250 : 32);
-  const auto size = static_cast<double>(large.width);
-  std::vector<double> depth(std::size_t{large.width} * large.height,
-                            -std::numeric_limits<double>::max());
-  constexpr double kHalfLine = 1.8;
+  Raster raster(side, side, wireframe);
+  const double size = raster.width();
   for (const bake::Triangle& t : surface.triangles) {
     std::array<Vec3d, 3> p;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3d q = (size / view.height) * turned(surface.position[t[i]] - view.center, view);
       p[i] = {0.5 * size + q.x, 0.5 * size - q.y, q.z};
     }
-    const Face face(p);
-    if (face.empty()) continue;
-    const auto cut = [&](double v) {
-      return static_cast<std::uint32_t>(std::clamp(v, 0.0, size - 1));
-    };
-    const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
-    const std::uint8_t shade = wireframe ? 250 : grey_of(p);
-    for (std::uint32_t y = cut(y0); y <= cut(y1 + 1); ++y)
-      for (std::uint32_t x = cut(x0); x <= cut(x1 + 1); ++x) {
-        double z = 0, edge = 0;
-        const std::size_t at = std::size_t{y} * large.width + x;
-        if (!face.at(x + 0.5, y + 0.5, &z, &edge) || z < depth[at]) continue;
-        depth[at] = z;
-        const std::uint8_t value = wireframe && edge < kHalfLine ? 20 : shade;
-        std::fill_n(large.rgb.begin() + static_cast<std::ptrdiff_t>(3 * at), 3, value);
-      }
+    raster.add(p);
   }
-  return halved(large);
+  return raster.picture();
 }
 
 }  // namespace caryatid::tool

@@ -22,6 +22,7 @@ namespace {
 struct RenderArgs {
   std::string pack, emotion, fap, set, bap, view = "front", size = "800x800", lod, mood, out;
   int viseme = -1;
+  bool wire = false;
   float phase = 0.0f;
   std::string bap_axes = "signed";
   bool joint_limits = false;
@@ -88,6 +89,7 @@ void render(const RenderArgs& a) {
     throw std::runtime_error("--size " + a.size + ": wanted WIDTHxHEIGHT, 16..2048 each");
   Pose pose;
   pose.view = view_named(a.view);
+  pose.wire = a.wire;
   if (!a.lod.empty()) set_lod(a.lod, &pose);
   if (!a.emotion.empty()) pose.faps = emotion_named(a.emotion);
   if (a.viseme >= 0) pose.faps = face::viseme_frame(a.viseme);
@@ -130,6 +132,7 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0f, 1.0f));
   cmd->add_option("--view", a->view, "front left right three-quarter bust body feet");
   cmd->add_option("--lod", a->lod, "Triangles: N of the whole person, or head=N (default all)");
+  cmd->add_flag("--wire", a->wire, "The edges of the triangles, hidden ones left out");
   cmd->add_option("--size", a->size, "WIDTHxHEIGHT (default 800x800)");
   cmd->add_option("-o,--out", a->out, "OUT.png")->required();
   cmd->footer("example: caryatid-tool render --pack woman.pack --emotion joy:0.7 -o joy.png");

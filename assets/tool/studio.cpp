@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "assets/tool/wire.h"
 #include "core/emotion/profiles.h"
 #include "core/face/mixer.h"
 #include "core/scene/compose.h"
@@ -94,6 +95,7 @@ Picture Studio::picture(const Pose& pose) {
   job.wrinkles = person_->wrinkles();
   job.camera = scene::make_camera(pose.framing ? *pose.framing : scene::framing(pose.view, subject),
                                   static_cast<float>(width_) / static_cast<float>(height_));
+  if (pose.wire) return wire_picture(*person_, job.camera, width_, height_);
   if (!job.run(list_.get()).ok())
     throw std::runtime_error("the scene does not fit; this is a fault");
   person_->collect_patches(&list_->patches);

@@ -25,6 +25,7 @@ struct Pose {
   std::optional<scene::Framing> framing = std::nullopt;  // In place of `view`.
   std::uint32_t lod = 0;                                 // Triangles of the whole person; 0: all.
   std::uint32_t head_lod = 0;  // Triangles of the head alone; 0: by `lod`.
+  bool wire = false;           // The edges of the triangles in place of surfaces.
 };
 
 class Studio {

@@ -36,6 +36,29 @@ TEST_F(Studio, TiersResembleEachOther) {
   EXPECT_LT(compare(best, shoot()).mean, 12.0);
 }
 
+// The stripes of the alpha texture stand for the lines of a face.
+TEST_F(Studio, LinesOfTheSkinShowAsTheyFoldAndTheCheapestShadingLeavesThem) {
+  open();
+  const Image plain = shoot();
+  pack_.edit_material(0).detail = 1;
+  open();
+  EXPECT_EQ(shoot().rgb, plain.rgb) << "level lines are no lines";
+  for (const Shading tier : {Shading::per_pixel, Shading::per_vertex, Shading::cheapest}) {
+    pack_.edit_list().shading = tier;
+    pack_.edit_list().wrinkles = {};
+    const Image smooth = shoot();
+    pack_.edit_list().wrinkles.left.fill(0.5f);
+    const Image left = shoot();
+    if (tier == Shading::cheapest) {
+      EXPECT_EQ(left.rgb, smooth.rgb);
+      continue;
+    }
+    EXPECT_GT(compare(smooth, left).mean, 0.2);
+    pack_.edit_list().wrinkles.right.fill(0.5f);
+    EXPECT_GT(compare(left, shoot()).mean, 0.05) << "the other side has its own weights";
+  }
+}
+
 TEST_F(Studio, BonesTurnTheHalfThatHangsOnThem) {
   open();
   const Image before = shoot();

@@ -19,6 +19,8 @@ class SamplePack {
   // A list with camera, studio light, all six spheres and patches that tell everything is new.
   const scene::DrawList& list() { return list_; }
   scene::DrawList& edit_list() { return list_; }
+  // Before a renderer opens the pack.
+  pack::Material& edit_material(std::size_t index) { return materials_[index]; }
   // Vertices of one sphere; changes show once a patch names them.
   std::vector<scene::DynamicVertex>& dynamic(std::size_t object) { return dynamic_[object]; }
 

@@ -11,18 +11,21 @@ constexpr float kIris = 0.114f;    // Radius, of the image.
 constexpr float kPupil = 0.32f;    // Radius, of the iris.
 constexpr float kVisible = 0.27f;  // Radius of the white that lids ever uncover.
 
+// Darker than any other place of the eye by far: the bake finds the gaze by it.
+constexpr Vec3 kBlack{0.0005f};
+
 // r: 0 the middle, 1 the rim of the iris. direction: unit, y downwards.
 Vec3 iris_color(Vec3 base, float r, Vec2 direction) {
   const Vec3 around{direction.x, direction.y, 0.0f};
   const float coarse = noise(around * 9.0f + Vec3{0, 0, r * 2.5f});
   const float fine = noise(around * 26.0f + Vec3{5.0f, 1.0f, r * 4.0f});
-  Vec3 c = base * (0.95f + 0.28f * coarse + 0.30f * fine);
+  Vec3 c = base * std::max(0.95f + 0.28f * coarse + 0.30f * fine, 0.6f);
   const float collar = std::exp(-std::pow((r - 0.50f) / 0.10f, 2.0f));
   c *= 1.0f + 0.45f * collar * (0.6f + 0.4f * fine);
   c = glm::mix(c, c * Vec3{1.30f, 1.02f, 0.72f}, smooth_step(0.62f, 0.40f, r));
-  c *= 1.0f + 0.40f * direction.y * smooth_step(0.3f, 0.7f, r);
-  c *= glm::mix(1.0f, 0.16f, smooth_step(0.74f, 0.98f, r));  // The limbal ring.
-  return glm::mix(c, Vec3{0.004f}, smooth_step(kPupil + 0.035f, kPupil - 0.02f, r));
+  c *= 1.0f + 0.25f * direction.y * smooth_step(0.3f, 0.7f, r);
+  c *= glm::mix(1.0f, 0.34f, smooth_step(0.74f, 0.98f, r));  // The limbal ring.
+  return glm::mix(c, kBlack, smooth_step(kPupil + 0.035f, kPupil - 0.02f, r));
 }
 
 // From the limbus, which shades it a little, to the corners, where it is red and sees less light.
@@ -47,7 +50,7 @@ void paint_eyes(Vec3 iris, LinearImage& image) {
       const float r = glm::length(d) / kIris;
       Vec4& texel = image.at(x, y);
       const Vec3 ball = white_color(Vec3{texel}, r);
-      const Vec3 color = r < 1e-4f ? Vec3{0.004f} : iris_color(base, r, d / (r * kIris));
+      const Vec3 color = r < 1e-4f ? kBlack : iris_color(base, r, d / (r * kIris));
       texel = Vec4{glm::mix(color, ball, smooth_step(0.96f, 1.08f, r)), texel.w};
     }
 }
