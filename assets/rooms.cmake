@@ -2,6 +2,7 @@
 # Heap, exceptions and big libraries are welcome.
 find_package(Eigen3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(ZLIB REQUIRED)
 pkg_check_modules(FONTS REQUIRED IMPORTED_TARGET freetype2 harfbuzz harfbuzz-subset)
 add_library(caryatid_host_libraries INTERFACE)
 target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
@@ -20,6 +21,6 @@ endif()
 if(tool_sources)
   add_executable(caryatid-tool ${tool_sources})
   target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_render caryatid_display
-    caryatid_voice_client
+    caryatid_voice_client ZLIB::ZLIB
     caryatid_flags)
 endif()

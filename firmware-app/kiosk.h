@@ -119,6 +119,7 @@ class Kiosk {
   scene::Subject subject_;               // At rest.
   Player player_;
   Speaker speaker_;
+  bool told_trouble_ = false;  // Of the speaker, on the log.
   face::FapFrame shown_;  // The face of the last frame, mixed.
   std::unique_ptr<platform::Display> display_;
   std::unique_ptr<platform::Renderer> renderer_;

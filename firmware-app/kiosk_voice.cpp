@@ -18,12 +18,15 @@ void Kiosk::open_speaker() {
 
 // What she says in this frame, for the mixer; her eyes know when to blink.
 const SpeechFrame& Kiosk::speak(const Tick& tick) {
-  const bool said_nothing = *speaker_.trouble() == '\0';
   const SpeechFrame& spoken = speaker_.step(tick.time_s);
-  if (said_nothing && *speaker_.trouble() != '\0')
+  const bool trouble = *speaker_.trouble() != '\0';
+  if (trouble && !told_trouble_)
     platform::log(platform::Event::speech_trouble, "speech: %s (captions go on)",
                   speaker_.trouble());
+  told_trouble_ = trouble;
   if (spoken.blink) agent_->blink();
+  agent_->attend(spoken.speaking ? spoken.attention : 0.0f);
+  if (spoken.beat > 0.0f && stage_) stage_->beat(spoken.beat);
   return spoken;
 }
 

@@ -253,10 +253,10 @@ void Speaker::State::lost(Status status, std::int64_t now_us) {
   const bool recovers = why == VoiceTrouble::crashed || why == VoiceTrouble::hung ||
                         why == VoiceTrouble::broken_protocol;
   trouble.assign(std::string_view(voice->trouble()));
-  if (!recovers || ssml) return go_silent(voice->trouble());
+  if (!recovers) return go_silent(voice->trouble());
   const auto known = utterance.words();
   const std::uint32_t said = known.empty() ? from_byte : known.back().end_byte;
-  const std::uint32_t next = speech::next_sentence({text.data(), text_bytes}, said);
+  const std::uint32_t next = speech::next_sentence({text.data(), text_bytes}, said, ssml);
   from_byte = next > from_byte ? next : static_cast<std::uint32_t>(text_bytes);
   const auto so_far_ms = static_cast<std::int32_t>(written * 1000 / audio->rate_hz());
   utterance.continue_at(so_far_ms, from_byte);

@@ -7,6 +7,7 @@ namespace caryatid::tool {
 
 void add_bake(CLI::App& app);
 void add_bake_font(CLI::App& bake_command);
+void add_clip(CLI::App& app);
 void add_fba(CLI::App& app);
 void add_gait(CLI::App& app);
 void add_plot(CLI::App& app);

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "Help of every subcommand");
   using namespace caryatid::tool;
   add_bake(app);
+  add_clip(app);
   add_fba(app);
   add_gait(app);
   add_plot(app);

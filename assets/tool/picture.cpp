@@ -34,6 +34,11 @@ struct Font {
   }
 };
 
+const Font& the_font() {
+  static const Font font;
+  return font;
+}
+
 // Takes one character off the front of valid UTF-8.
 int next_code_point(std::string_view* io_text) {
   const auto byte = [io_text](std::size_t i) {
@@ -93,7 +98,7 @@ void fill_box(const Box& box, std::uint8_t grey, Picture* to) {
 }
 
 void draw_text(std::string_view text, int x, int y, float pixel_height, Picture* to) {
-  static const Font font;
+  const Font& font = the_font();
   const float scale = stbtt_ScaleForPixelHeight(&font.info, pixel_height);
   auto pen = static_cast<float>(x);
   while (!text.empty()) {
@@ -119,6 +124,18 @@ void draw_text(std::string_view text, int x, int y, float pixel_height, Picture*
     stbtt_GetCodepointHMetrics(&font.info, c, &advance, &bearing);
     pen += scale * static_cast<float>(advance);
   }
+}
+
+float text_width(std::string_view text, float pixel_height) {
+  const Font& font = the_font();
+  const float scale = stbtt_ScaleForPixelHeight(&font.info, pixel_height);
+  int sum = 0;
+  while (!text.empty()) {
+    int advance = 0, bearing = 0;
+    stbtt_GetCodepointHMetrics(&font.info, next_code_point(&text), &advance, &bearing);
+    sum += advance;
+  }
+  return scale * static_cast<float>(sum);
 }
 
 Picture grid(const std::vector<Picture>& cells, const std::vector<std::string>& captions,

@@ -35,6 +35,9 @@ void fill_box(const Box& box, std::uint8_t grey, Picture* to);
 // is no font.
 void draw_text(std::string_view text, int x, int y, float pixel_height, Picture* to);
 
+// How many pixels draw_text() advances for it.
+float text_width(std::string_view text, float pixel_height);
+
 // Pictures of one size in rows of `columns`, each with its caption beneath (none when empty).
 Picture grid(const std::vector<Picture>& cells, const std::vector<std::string>& captions,
              std::uint32_t columns);

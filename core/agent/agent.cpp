@@ -25,7 +25,7 @@ const Intentions& Agent::step(float dt_s) {
   gesture_ = body::GestureKind::none;
   feeling_.step(dt);
   const bool busy = since_press_s_ < kBusy_s || feeling_.current() != emotion::Emotion::calm;
-  idle_.step(dt, since_press_s_ < 4.0f ? 1.0f : (busy ? 0.6f : 0.2f));
+  idle_.step(dt, std::max(attend_, since_press_s_ < 4.0f ? 1.0f : (busy ? 0.6f : 0.2f)));
 
   out_.emotions = feeling_.weights();
   out_.emotion = feeling_.current();

@@ -37,6 +37,8 @@ class Agent {
   void feel(emotion::Emotion e, float strength);
   // At a phrase's end, say.
   void blink() { idle_.blink_now(); }
+  // Who speaks looks at the listener: at least so much, 0..1, until it is told otherwise.
+  void attend(float attention) { attend_ = attention; }
   // Begins with the next step.
   void gesture(body::GestureKind kind) { gesture_ = kind; }
   void sleep(bool asleep) { out_.asleep = asleep; }
@@ -50,6 +52,7 @@ class Agent {
   emotion::Feeling feeling_;
   IdleLife idle_;
   float since_press_s_ = 1e6f;
+  float attend_ = 0.0f;
   bool pressed_ = false;
   body::GestureKind gesture_ = body::GestureKind::none;
   Intentions out_;

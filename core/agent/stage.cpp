@@ -145,6 +145,12 @@ void Stage::direct(float dt_s, const Intentions& will) {
   }
 }
 
+void Stage::beat(float size) {
+  if (phase_ != Phase::present || gestures_.active()) return;
+  beat_left_ = !beat_left_;
+  gestures_.start({.kind = body::GestureKind::beat, .left = beat_left_, .size = size});
+}
+
 // Small signs with the feelings that have one; the hands stay down, the camera is near.
 void Stage::gesture(const Intentions& will) {
   if (will.gesture != body::GestureKind::none)

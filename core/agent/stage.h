@@ -42,6 +42,9 @@ class Stage {
   // will: of the same frame. camera_m: where the visitor looks from; eyes and head aim at it.
   void step(float dt_s, const Intentions& will, Vec3 camera_m);
 
+  // A hand beat of this size (body/gesture.h) underlines a word, unless hands have something to do.
+  void beat(float size);
+
   Phase phase() const { return phase_; }
   // To show: every BAP, root included, and for face::MixJob::idle the agent's idle face with the
   // gaze held on the visitor while the body turns.
@@ -73,6 +76,7 @@ class Stage {
   body::Walker walker_;
   body::GestureLayer gestures_;
   emotion::Emotion gestured_ = emotion::Emotion::calm;
+  bool beat_left_ = false;
   std::uint64_t entrances_ = 0;
   float side_ = 1.0f;     // From which she comes; + is her left when she faces the visitor.
   float clock_s_ = 0.0f;  // Present: without a visitor. Away: since she went.

@@ -260,7 +260,9 @@ Phoneme phoneme_of(std::span<const char> ipa) {
   for (std::size_t at = 0; at < ipa.size();) {
     const char32_t symbol = next_symbol(ipa, &at);
     out.stressed = out.stressed || symbol == kPrimaryStress;
-    const std::optional<Sound> known = sound_of(symbol);
+    std::optional<Sound> known = sound_of(symbol);
+    // A palatal glide by itself, as Russian has it behind soft consonants.
+    if (symbol == U'ʲ' && sounds == 0) known = sound(kI, 0.4f);
     if (!known) {
       // Length, ties, diacritics and blanks have no shape of their own.
       unknown = unknown || (symbol != kPrimaryStress && symbol != kSecondaryStress &&

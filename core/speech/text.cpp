@@ -75,14 +75,19 @@ std::optional<ByteRange> next_word(std::span<const char> text, std::uint32_t fro
   return ByteRange{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end)};
 }
 
-std::uint32_t next_sentence(std::span<const char> text, std::uint32_t from) {
+std::uint32_t next_sentence(std::span<const char> text, std::uint32_t from, bool ssml) {
+  const auto is_gap = [ssml](char c) { return is_blank(c) || (ssml && c == '<'); };
   for (std::size_t i = from; i < text.size(); ++i) {
+    if (ssml && text[i] == '<') {
+      while (i < text.size() && text[i] != '>') ++i;
+      continue;
+    }
     if (!ends_sentence(text, i)) continue;
     // Inside a number or an abbreviation no blank follows.
     std::size_t next = i + 1;
     while (next < text.size() && (ends_sentence(text, next) || follows(byte_at(text, next))))
       ++next;
-    if (next < text.size() && !is_blank(text[next]) && text[i] != '\n') continue;
+    if (next < text.size() && !is_gap(text[next]) && text[i] != '\n') continue;
     while (next < text.size() && is_blank(text[next])) ++next;
     return static_cast<std::uint32_t>(next);
   }

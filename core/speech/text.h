@@ -22,7 +22,8 @@ struct ByteRange {
 std::optional<ByteRange> next_word(std::span<const char> text, std::uint32_t from, bool ssml);
 
 // Where the sentence after the one that holds byte `from` begins; text.size() when there is none.
-std::uint32_t next_sentence(std::span<const char> text, std::uint32_t from);
+// Tags end no sentence and may follow its end, when `ssml`.
+std::uint32_t next_sentence(std::span<const char> text, std::uint32_t from, bool ssml = false);
 
 // Adds the words from `from_byte` on at a silent reader's pace (about 14 characters a second, the
 // rate of good subtitles), from `start_ms` on, and finishes the utterance.

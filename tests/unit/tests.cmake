@@ -82,7 +82,11 @@ file(GLOB voice_test_sources CONFIGURE_DEPENDS ${voice_tests}/*_test.cpp)
 add_executable(unit_platform_voice ${voice_test_sources})
 target_link_libraries(unit_platform_voice PRIVATE caryatid_voice_client caryatid_flags
   GTest::gtest_main)
+set(real_voice)
+if(TARGET caryatid-voice)
+  set(real_voice $<TARGET_FILE:caryatid-voice>)
+endif()
 target_compile_definitions(unit_platform_voice PRIVATE
-  CARYATID_FAKE_VOICE="$<TARGET_FILE:fake-voice>")
+  CARYATID_FAKE_VOICE="$<TARGET_FILE:fake-voice>" CARYATID_REAL_VOICE="${real_voice}")
 add_dependencies(unit_platform_voice fake-voice)
 add_test(NAME unit_platform_voice COMMAND unit_platform_voice)

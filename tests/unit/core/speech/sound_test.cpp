@@ -75,6 +75,11 @@ TEST(Sound, StressAndLengthAreNoSounds) {
   EXPECT_FALSE(of("ˌiː").stressed);
 }
 
+TEST(Sound, SoftnessColoursNothingButItself) {
+  EXPECT_EQ(of("mʲ").begins, of("m").begins);
+  EXPECT_EQ(main_viseme(of("ʲ").begins), 12);
+}
+
 TEST(Sound, NothingIsSilence) {
   EXPECT_TRUE(of("").begins.silent());
   EXPECT_TRUE(of("_").begins.silent());

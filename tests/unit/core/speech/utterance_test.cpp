@@ -134,6 +134,12 @@ TEST(Text, SentencesEndBeforeABlank) {
   EXPECT_EQ(next_sentence(text, 28), text.size());
 }
 
+TEST(Text, SentencesOfSsmlEndBeforeTagsToo) {
+  const std::string_view text = "<s>One<break time=\"0.5s\"/> two.</s><s>Three.</s>";
+  const std::uint32_t next = next_sentence(text, 3, true);
+  EXPECT_EQ(text.substr(next, 7), "</s><s>");
+}
+
 TEST(Text, TagsAreNoWords) {
   const std::string_view text = "<speak>Hello <b x=\"1\"/>you</speak>";
   const auto first = next_word(text, 0, true);
