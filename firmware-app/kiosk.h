@@ -120,7 +120,7 @@ class Kiosk {
   Player player_;
   Speaker speaker_;
   bool told_trouble_ = false;  // Of the speaker, on the log.
-  face::FapFrame shown_;  // The face of the last frame, mixed.
+  face::FapFrame shown_;       // The face of the last frame, mixed.
   std::unique_ptr<platform::Display> display_;
   std::unique_ptr<platform::Renderer> renderer_;
   std::unique_ptr<platform::Buttons> script_;
