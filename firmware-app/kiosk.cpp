@@ -21,7 +21,9 @@
 namespace caryatid::app {
 namespace {
 
+const std::int64_t g_started_us = platform::monotonic_us();
 std::atomic<bool> g_stop{false};
+std::atomic<bool> g_flips_stopped{false}, g_gpu_reset{false};
 
 // Bytes of the pack that are read between two frames while it still loads.
 constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
@@ -51,6 +53,8 @@ body::BapConvention bap_axes_of(const std::string& name) {
 }  // namespace
 
 void Kiosk::request_stop() { g_stop = true; }
+void Kiosk::stop_flips() { g_flips_stopped = true; }
+void Kiosk::reset_gpu() { g_gpu_reset = true; }
 
 bool Kiosk::load_base(std::string* out_error) {
   const pack::PackHeader& h = pack_file_.header();
@@ -111,8 +115,13 @@ bool Kiosk::open_renderer() {
   platform::ErrorLine error;
   if (app::open_renderer(display_.get(), person_.view(), !loader_.complete(), options_.width,
                          options_.height, renderer_, error)
-          .ok())
+          .ok()) {
+    const platform::GpuCaps& gpu = renderer_->caps();
+    if (display_ && display_->has_surface() && gpu.software)
+      std::fprintf(stderr, "caryatid: drawn by the CPU (%s): no driver of a GPU is in use\n",
+                   gpu.renderer.c_str());
     return true;
+  }
   complain(error.c_str());
   return false;
 }
@@ -152,6 +161,13 @@ void Kiosk::fix_levels() {
   if (fixed_) person_.set_levels({fixed_levels_.data(), person_.object_count()});
 }
 
+// Once for each: how long a visitor looked at nothing.
+void Kiosk::tell_picture(const char* of_what) const {
+  if (!display_ || !display_->has_surface() || options_.virtual_clock) return;
+  std::fprintf(stderr, "caryatid: %s on the screen %.2f s after the program's start\n", of_what,
+               static_cast<double>(platform::monotonic_us() - g_started_us) * 1e-6);
+}
+
 bool Kiosk::start() {
   if (!read_config()) return false;
   std::string error;
@@ -161,8 +177,9 @@ bool Kiosk::start() {
   }
   if (!open_display()) return false;
   // Reading a pack takes a second or two on a board; a replay shows its own frames alone.
-  if (display_ && !options_.pack.empty() && !options_.virtual_clock)
-    (void)show_builtin_face(*display_, options_.rotate_degrees);
+  if (display_ && !options_.pack.empty() && !options_.virtual_clock &&
+      show_builtin_face(*display_, options_.rotate_degrees))
+    tell_picture("built-in face");
   if (!open_person()) return false;
   if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) {
     complain(error);
@@ -224,6 +241,7 @@ bool Kiosk::run() {
                              : static_cast<double>(platform::monotonic_us() - began_us) * 1e-6;
     if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
     ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
+    if (ok && frame_number_ == 0) tell_picture("person");
     watch(ok);
     last_s = now_s;
     ++frame_number_;
@@ -449,7 +467,7 @@ bool Kiosk::draw(const Tick& tick) {
   if (!visible()) return true;
   person_.collect_patches(&list_.patches);
   const Status drawn = renderer_->draw(list_);
-  if (drawn.code == Code::device_lost) return reopen_screen();
+  if (drawn.code == Code::device_lost || g_gpu_reset.exchange(false)) return reopen_screen();
   if (frames_out_.wants(frame_number_)) {
     if (renderer_->read_back(frames_out_.buffer()).ok() &&
         !frames_out_.add(frame_number_, tick.time_s)) {
@@ -458,7 +476,7 @@ bool Kiosk::draw(const Tick& tick) {
       return false;
     }
   }
-  if (!display_) return true;
+  if (!display_ || g_flips_stopped) return true;
   const Status shown = display_->present();
   if (shown.code == Code::device_lost) return reopen_screen();
   flip_ = display_->last_flip();

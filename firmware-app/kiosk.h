@@ -62,6 +62,9 @@ class Kiosk {
   static bool list_hardware(const Options& options);
   // Async-signal-safe.
   static void request_stop();
+  // --test-faults; async-signal-safe. The first lasts, the second happens once.
+  static void stop_flips();
+  static void reset_gpu();
 
  private:
   struct Tick {
@@ -78,6 +81,7 @@ class Kiosk {
   bool open_display();
   bool open_renderer();
   bool reopen_screen();
+  void tell_picture(const char* of_what) const;
   bool open_outputs();
   void open_speaker();
   bool frame(const Tick& tick);

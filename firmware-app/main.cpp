@@ -46,6 +46,10 @@ int main(int argc, char** argv) {
   if (options.list_hardware) return Kiosk::list_hardware(options) ? 0 : 1;
   std::signal(SIGTERM, on_signal);
   std::signal(SIGINT, on_signal);
+  if (options.test_faults) {
+    std::signal(SIGUSR1, [](int) { Kiosk::stop_flips(); });
+    std::signal(SIGUSR2, [](int) { Kiosk::reset_gpu(); });
+  }
   // Large: meshes, tables and buffers of fixed size stand inside it.
   const auto kiosk = std::make_unique<Kiosk>(options);
   if (!kiosk->start() || !kiosk->run()) return 1;

@@ -49,6 +49,7 @@ class MetricsFile {
 
  private:
   std::FILE* file_ = nullptr;
+  double flush_s_ = 0.0;
   char buffer_[65536];
 };
 

@@ -52,6 +52,7 @@ usage: caryatid [OPTIONS]
   --state DIR            a folder for what outlives a power cut (default: $STATE_DIRECTORY)
   --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --seed N               another idle life (default 1)
+  --test-faults          for tests: SIGUSR1 stops the page flips, SIGUSR2 is a GPU reset
   --check                look at config and pack, say what is wrong, and exit
   --help, --version
 
@@ -92,6 +93,7 @@ enum Id : int {
   kBapAxes,
   kJointLimits,
   kCheck,
+  kTestFaults,
   kHelpId,
   kVersion,
 };
@@ -128,6 +130,7 @@ constexpr option kLong[] = {
     {"bap-axes", required_argument, nullptr, kBapAxes},
     {"joint-limits", no_argument, nullptr, kJointLimits},
     {"check", no_argument, nullptr, kCheck},
+    {"test-faults", no_argument, nullptr, kTestFaults},
     {"help", no_argument, nullptr, kHelpId},
     {"version", no_argument, nullptr, kVersion},
     {nullptr, 0, nullptr, 0},
@@ -299,6 +302,9 @@ bool take(int id, const char* text, Options* o) {
     case kSeed:
       if (!number("seed", text, 0, 9e15, &value)) return false;
       o->seed = static_cast<std::uint64_t>(value);
+      return true;
+    case kTestFaults:
+      o->test_faults = true;
       return true;
     case kCheck:
       o->check = true;

@@ -36,6 +36,7 @@ struct Options {
   std::string bap_axes = "signed";  // Of what --play plays: signed, reversed or plain.
   bool joint_limits = false;
   bool check = false;
+  bool test_faults = false;  // Signals bring on faults that no machine has at will.
   bool list_hardware = false;
 };
 
