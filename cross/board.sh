@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
 # Caryatid for boards: cross-compiled on a Debian 12 PC, its tests run by user-mode emulation.
 set -euo pipefail
+export PYTHONDONTWRITEBYTECODE=1
 cd "$(dirname "$0")/.."
 
 usage() {
   cat <<'TEXT'
 usage: cross/board.sh build [arm64|armhf] [bookworm|trixie] [CMAKE-ARGS]   cross-compile the agent
        cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   and run the board code's tests
+       cross/board.sh test  [STEPS]   the kiosk on an emulated board, from power-on; see
+                                      tests/board/emulated.py --help for the steps
 
 Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
 ~/.cache/caryatid; bookworm has libgpiod 1.6, trixie libgpiod 2.
 The program is build/cross-ARCH-RELEASE/bin/caryatid.
+test needs what cross/host.sh build leaves (the pack, and this PC's caryatid to compare with), takes
+a quarter of an hour on two idle cores, and leaves pictures in build/board. A machine that is busy
+with other things gets more time by CARYATID_BOARD_PATIENCE=3.
 
 example: cross/board.sh unit armhf
 TEXT
@@ -24,6 +30,11 @@ libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev lib
   wayland-protocols libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev
   libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev
   libeigen3-dev libcli11-dev libharfbuzz-dev libfribidi-dev libunibreak-dev)
+# For the emulated board: what its image holds beside the project's own package.
+board_packages=(systemd systemd-sysv udev kmod busybox-static linux-image-arm64 libegl1 libgles2
+  libgl1-mesa-dri libegl-mesa0 libgbm1 libdrm2 libgpiod2 libhidapi-hidraw0 libx11-6
+  libwayland-client0 libwayland-egl1 libasound2 libespeak-ng1 libstdc++6 libharfbuzz0b libfribidi0
+  libunibreak5)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }
@@ -78,7 +89,8 @@ build() {
   cmake --preset "$preset" "${fresh[@]}" -B "$folder" -DCARYATID_SYSROOT="$sysroot" "${@:4}" \
     >"$folder.log" 2>&1 ||
     { tail -n 40 "$folder.log" >&2; fail "configuring failed"; }
-  ninja -C "$folder" --quiet || fail "building failed"
+  # shellcheck disable=SC2086  # Several targets, or none for all.
+  nice ninja -C "$folder" --quiet ${targets:-} || fail "building failed"
   say "built $folder/bin/caryatid"
 }
 
@@ -94,6 +106,60 @@ compare_hashes() {
   say "$arch computes the same face, body and pose as this PC: $(tr '\n' ' ' <"$folder/hashes.txt")"
 }
 
+# The emulated board's system, unpacked and prepared once; its name holds a hash of both recipes.
+make_board_tree() {
+  local names scratch key mode=()
+  names="${board_packages[*]}"
+  key=$({ printf '%s' "$names"; cat cross/board/image.py; } | sha256sum | cut -c1-12)
+  tree="$cache/board-$key"
+  [ -d "$tree" ] && return 0
+  mkdir -p "$cache"
+  scratch=$(mktemp -d "$cache/unpack.XXXXXX")
+  chmod 755 "$scratch"
+  [ "$(id -u)" -eq 0 ] && mode=(--mode=root)
+  say "unpacking the emulated board's Debian"
+  mmdebstrap --quiet --variant=extract "${mode[@]}" --skip=check/qemu --architectures=arm64 \
+    --include="${names// /,}" bookworm "$scratch" http://deb.debian.org/debian \
+    >"$cache/board.log" 2>&1 || fail "no tree of the board; $cache/board.log says why"
+  python3 cross/board/image.py prepare "$scratch" || fail "the board's tree can't be prepared"
+  mv -T "$scratch" "$tree"
+}
+
+# The agent's package as made by cross/package.sh where it is newer than the program, else what
+# would be in it.
+fill_payload() {
+  local deb
+  deb=$(ls -t build/packages/bookworm/caryatid_*_arm64.deb 2>/dev/null | head -1 || true)
+  rm -rf "$payload"
+  mkdir -p "$payload/usr/share/caryatid"
+  if [ -n "$deb" ] && [ "$deb" -nt "$folder/bin/caryatid" ]; then
+    say "the board gets $deb"
+    dpkg-deb -x "$deb" "$payload"
+  else
+    say "the board gets the files of the package (no newer build/packages/bookworm/*.deb)"
+    DESTDIR="$PWD/$payload" cmake --install "$folder" --prefix /usr --component caryatid \
+      >"$folder.install.log" || fail "installing failed; $folder.install.log says why"
+  fi
+  cp "$pack" "$payload/usr/share/caryatid/woman.pack"
+}
+
+emulated_test() {
+  local payload=build/board/payload pack=build/host-release/packs/woman.pack
+  local host=build/host-release/bin/caryatid
+  [ -x "$host" ] && [ -f "$pack" ] || fail "first run cross/host.sh build: $host or $pack is missing"
+  targets=caryatid
+  packages+=(qemu-system-arm e2fsprogs kmod cpio)
+  build
+  make_board_tree
+  fill_payload
+  python3 tests/board/emulated.py --tree "$tree" --payload "$payload" --pack "$pack" \
+    --host "$host" --out build/board --shaders "$cache/board-shaders" ${1:+--steps "$1"}
+}
+
+if [ "${1:-}" = test ]; then
+  steps=${2:-}
+  set -- test
+fi
 arch=${2:-arm64}
 release=${3:-bookworm}
 case "$arch" in
@@ -131,6 +197,7 @@ case "${1:-}" in
     compare_hashes
     ctest --test-dir "$folder" --output-on-failure -j "$(nproc)"
     ;;
+  test) emulated_test "$steps" ;;
   -h | --help | help) usage ;;
   *)
     usage >&2

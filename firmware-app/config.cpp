@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "firmware-app/config_devices.h"
+#include "firmware-app/config_screen.h"
 
 namespace caryatid::app {
 namespace {
@@ -16,7 +17,7 @@ class Reader {
 
   bool read(const toml::table& root, Config* out) {
     DeviceRefusal refusal;
-    if (!read_hid_devices(root, out, &refusal))
+    if (!read_hid_devices(root, out, &refusal) || !read_screen(root, out, &refusal))
       return refuse(*refusal.where, refusal.what, refusal.cure);
     const toml::array* buttons = root["button"].as_array();
     if (buttons == nullptr || buttons->empty())

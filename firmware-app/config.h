@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/fixed.h"
+#include "firmware-app/screen_care.h"
 #include "platform/buttons/gpio.h"
 #include "platform/buttons/hid.h"
 
@@ -22,6 +23,7 @@ struct Config {
   // The devices that press the buttons, by their numbers from 1.
   FixedVector<platform::GpioLine, kMaxButtons> gpio;
   FixedVector<platform::HidDevice, platform::kMaxHidDevices> hid;
+  ScreenCareConfig screen;
 };
 
 // Parses the text of a kiosk.toml. False: `out_error` is one line, "NAME:LINE: what; cure".

@@ -204,6 +204,7 @@ bool Kiosk::start() {
       return false;
     }
   }
+  care_ = ScreenCare(config_.screen);
   agent_ = std::make_unique<agent::Agent>(options_.seed);
   open_speaker();
   set_stage();
@@ -376,6 +377,19 @@ void Kiosk::aim_camera() {
   list_.camera = scene::make_camera(framing, picture_aspect(), options_.rotate_degrees);
 }
 
+// Dims and wanders what draw() composes, and switches the screen. A replay shows plain pictures.
+void Kiosk::care_for_screen(float dt_s, const agent::Intentions& will) {
+  if (options_.virtual_clock) return;
+  const bool moving = stage_ && stage_->moving();
+  // Closed, she leaves before it gets dark.
+  care_.step(dt_s, will.busy || moving || player_.active(), pressed_us_ != 0,
+             !will.asleep || moving);
+  if (display_) display_->set_power(care_.screen_on());
+  Mat4& p = list_.camera.projection;
+  for (int column = 0; column < 4; ++column)
+    for (int axis = 0; axis < 2; ++axis) p[column][axis] += care_.shift()[axis] * p[column][3];
+}
+
 void Kiosk::act(const Tick& tick) {
   follow_programme(tick);
   const SpeechFrame& spoken = speak(tick);
@@ -402,6 +416,7 @@ void Kiosk::act(const Tick& tick) {
     if (player_.baps() != nullptr) baps = player_.baps();
   }
   choose_levels(tick, will);
+  care_for_screen(tick.dt_s, will);
   shown_ = mix.run();
   body::BapFrame breathing = *baps;
   if (spoken.breath > 0.0f) agent::inhale(spoken.breath, &breathing);
@@ -463,6 +478,9 @@ bool Kiosk::draw(const Tick& tick) {
     job.shading = budget_->decision().shading;
   }
   if (!job.run(&list_).ok()) return false;
+  for (Vec3* light : {&list_.key.color, &list_.fill.color, &list_.rim.color, &list_.ambient_up,
+                      &list_.ambient_down, &list_.background_top, &list_.background_bottom})
+    *light *= care_.light();
   // Drawn for nobody, a board would only grow warm; what changed meanwhile stays collected.
   if (!visible()) return true;
   person_.collect_patches(&list_.patches);

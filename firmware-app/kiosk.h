@@ -25,6 +25,7 @@
 #include "firmware-app/panel.h"
 #include "firmware-app/player.h"
 #include "firmware-app/png_writer.h"
+#include "firmware-app/screen_care.h"
 #include "firmware-app/service.h"
 #include "firmware-app/speaker.h"
 #include "platform/buttons/buttons.h"
@@ -91,6 +92,7 @@ class Kiosk {
   void set_stage();
   float picture_aspect() const;
   void aim_camera();
+  void care_for_screen(float dt_s, const agent::Intentions& will);
   void act(const Tick& tick);
   void keep_joints(body::BapConvention axes, body::BapFrame* io_body);
   const SpeechFrame& speak(const Tick& tick);
@@ -129,6 +131,7 @@ class Kiosk {
   std::unique_ptr<platform::Renderer> renderer_;
   std::unique_ptr<platform::Buttons> script_;
   Panel panel_;
+  ScreenCare care_;
   platform::Notifier notifier_;
   Service service_;
   platform::Thermal thermal_;

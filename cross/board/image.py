@@ -154,7 +154,15 @@ def prepare(root):
     make_initramfs(root, os.path.join(boot, "initramfs-small"), "/etc/small-init")
 
 
-def disk(root, payload, out):
+def owner(root, user):
+    """User and group ids by the tree's own tables."""
+    with open(os.path.join(root, "etc/passwd"), encoding="utf-8") as table:
+        fields = next(line.split(":") for line in table if line.startswith(user + ":"))
+    return int(fields[2]), int(fields[3])
+
+
+def disk(root, payload, out, shaders=None):
+    """`shaders`: a folder with the kiosk's shader cache of an earlier run, or none."""
     scratch = out + ".tree"
     shutil.rmtree(scratch, ignore_errors=True)
     # Hard links: the tree itself must not change, so what is written anew replaces its link.
@@ -170,6 +178,13 @@ def disk(root, payload, out):
     subprocess.run(["qemu-aarch64-static", "-L", scratch,
                     os.path.join(scratch, "bin/systemd-sysusers"), "--root=" + scratch],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    kept = os.path.join(shaders or "", "caryatid")
+    if os.path.isdir(kept):
+        cache = os.path.join(scratch, "var/cache/caryatid")
+        shutil.copytree(kept, cache)
+        for base, folders, files in os.walk(cache):
+            for name in ["."] + files:
+                os.chown(os.path.join(base, name), *owner(scratch, "caryatid"))
     subprocess.run(["mke2fs", "-q", "-F", "-t", "ext4", "-d", scratch, out, "768M"], check=True)
     shutil.rmtree(scratch)
 
@@ -183,4 +198,5 @@ def main():
         sys.exit(__doc__)
 
 
-main()
+if __name__ == "__main__":
+    main()

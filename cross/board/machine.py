@@ -72,6 +72,7 @@ class Machine:
             raise Timeout("QEMU does not start; is qemu-system-arm installed?")
         self.started = time.monotonic()
         self.link = connect(self.qmp_path)
+        self.link.settimeout(None)  # Minutes may pass between two events.
         self.answers = []
         self.arrived = threading.Condition()
         threading.Thread(target=self._listen, args=(self.link,), daemon=True).start()
@@ -113,6 +114,9 @@ class Machine:
 
     def happened(self, event):
         return any(name == event for _, name, _ in self.events)
+
+    def events_of(self, event):
+        return sum(name == event for _, name, _ in self.events)
 
     # What a visitor or a careless cleaner does.
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::array kDays = {"monday", "tuesday",  "wednesday", "thursday",
                               "friday", "saturday", "sunday"};
-constexpr std::array kRootKeys = {"languages", "start",   "volume",    "sleep", "hours",  "night",
-                                  "attract",   "picture", "variables", "page",  "button", "hid"};
+constexpr std::array kRootKeys = {"languages", "start",   "volume",  "sleep",     "hours",
+                                  "night",     "attract", "picture", "variables", "page",
+                                  "button",    "hid",     "screen"};
 constexpr std::array kPageKeys = {"name",    "title", "body", "say",     "show",
                                   "gesture", "feel",  "on",   "language"};
 

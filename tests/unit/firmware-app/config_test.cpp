@@ -102,5 +102,17 @@ TEST_F(ConfigTest, TooManyDevicesAreRefused) {
   expect_refused(many + button(""), "13", "at most 4");
 }
 
+TEST_F(ConfigTest, TheScreensCare) {
+  ASSERT_TRUE(parse(button("") + "[screen]\ndim_after_s = 60\noff_after_s = 600.5\nwander = 0\n"))
+      << error_;
+  EXPECT_EQ(config_.screen.dim_after_s, 60.0f);
+  EXPECT_EQ(config_.screen.off_after_s, 600.5f);
+  EXPECT_EQ(config_.screen.wander, 0.0f);
+  expect_refused(button("") + "[screen]\ndim = 1\n", "6", "dim");
+  expect_refused(button("") + "[screen]\nwander = 0.2\n", "6", "wander");
+  expect_refused(button("") + "[screen]\ndim_to = 'half'\n", "6", "dim_to");
+  expect_refused("screen = 1\n" + button(""), "1", "[screen]");
+}
+
 }  // namespace
 }  // namespace caryatid::app
