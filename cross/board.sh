@@ -146,7 +146,8 @@ fill_payload() {
 emulated_test() {
   local payload=build/board/payload pack=build/host-release/packs/woman.pack
   local host=build/host-release/bin/caryatid
-  [ -x "$host" ] && [ -f "$pack" ] || fail "first run cross/host.sh build: $host or $pack is missing"
+  [ -x "$host" ] && [ -f "$pack" ] ||
+    fail "$host or $pack is missing; first run cross/host.sh build"
   targets=caryatid
   packages+=(qemu-system-arm e2fsprogs kmod cpio)
   build

@@ -243,7 +243,24 @@ bool take_path(int id, const char* text, Options* o) {
   }
 }
 
+// Options without a value. False: it is none of them.
+bool take_flag(int id, Options* o) {
+  switch (id) {
+    case kVirtual:
+      return o->virtual_clock = true;
+    case kTestFaults:
+      return o->test_faults = true;
+    case kCheck:
+      return o->check = true;
+    case kListHardware:
+      return o->list_hardware = true;
+    default:
+      return false;
+  }
+}
+
 bool take(int id, const char* text, Options* o) {
+  if (take_flag(id, o)) return true;
   double value = 0.0;
   switch (id) {
     case kConfig:
@@ -265,9 +282,6 @@ bool take(int id, const char* text, Options* o) {
       return true;
     case kNow:
       return date_of(text, o);
-    case kVirtual:
-      o->virtual_clock = true;
-      return true;
     case kBoard:
       return one_of("board", text, {"pi-zero-2w", "pi3", "pi4", "mali450", "gc7000"}, &o->board);
     case kDuration:
@@ -302,15 +316,6 @@ bool take(int id, const char* text, Options* o) {
     case kSeed:
       if (!number("seed", text, 0, 9e15, &value)) return false;
       o->seed = static_cast<std::uint64_t>(value);
-      return true;
-    case kTestFaults:
-      o->test_faults = true;
-      return true;
-    case kCheck:
-      o->check = true;
-      return true;
-    case kListHardware:
-      o->list_hardware = true;
       return true;
     default:
       return take_path(id, text, o);

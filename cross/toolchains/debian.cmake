@@ -14,6 +14,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # LIBDIR replaces the host's search path; PKG_CONFIG_PATH would only add to it.
-set(ENV{PKG_CONFIG_LIBDIR}
-  ${CARYATID_SYSROOT}/usr/lib/${TRIPLE}/pkgconfig:${CARYATID_SYSROOT}/usr/share/pkgconfig)
+set(folders usr/lib/${TRIPLE}/pkgconfig usr/lib/pkgconfig usr/share/pkgconfig)
+list(TRANSFORM folders PREPEND ${CARYATID_SYSROOT}/)
+list(JOIN folders ":" folders)
+set(ENV{PKG_CONFIG_LIBDIR} ${folders})
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${CARYATID_SYSROOT})

@@ -40,7 +40,8 @@ endif()
 add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/config_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/firmware-app/screen_care_test.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/config.cpp ${CMAKE_SOURCE_DIR}/firmware-app/config_devices.cpp
-  ${CMAKE_SOURCE_DIR}/firmware-app/config_screen.cpp ${CMAKE_SOURCE_DIR}/firmware-app/screen_care.cpp)
+  ${CMAKE_SOURCE_DIR}/firmware-app/config_screen.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/screen_care.cpp)
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
 caryatid_unit(firmware-app/texts caryatid_texts)
