@@ -34,7 +34,7 @@ libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev lib
 board_packages=(systemd systemd-sysv udev kmod busybox-static linux-image-arm64 libegl1 libgles2
   libgl1-mesa-dri libegl-mesa0 libgbm1 libdrm2 libgpiod2 libhidapi-hidraw0 libx11-6
   libwayland-client0 libwayland-egl1 libasound2 libespeak-ng1 libstdc++6 libharfbuzz0b libfribidi0
-  libunibreak5)
+  libunibreak1)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }
