@@ -59,12 +59,12 @@ constexpr std::array kJoy = {
 };
 
 constexpr std::array kDisgust = {
-    ProfileEntry{4, -234, 109, kMeasured, -0.3f},
+    ProfileEntry{4, -234, 109, kMeasured, 0},
     ProfileEntry{5, 177, 108, kMeasured, -1},
-    ProfileEntry{6, -60, 30, kQualitative, 0},
-    ProfileEntry{7, -60, 30, kQualitative, 0},
-    ProfileEntry{8, -230, 60, kQualitative, 0.6f},
-    ProfileEntry{9, -230, 60, kQualitative, 0.6f},
+    ProfileEntry{6, -20, 10, kQualitative, 0},
+    ProfileEntry{7, -20, 10, kQualitative, 0},
+    ProfileEntry{8, -200, 60, kQualitative, 0},
+    ProfileEntry{9, -200, 60, kQualitative, 0},
     ProfileEntry{12, -60, 40, kQualitative, 1},
     ProfileEntry{13, -60, 40, kQualitative, 1},
     ProfileEntry{16, 60, 40, kQualitative, 1},
@@ -80,9 +80,9 @@ constexpr std::array kDisgust = {
     ProfileEntry{38, 26, 17, kMeasured, 1},
     ProfileEntry{41, 90, 40, kQualitative, 1},
     ProfileEntry{42, 90, 40, kQualitative, 1},
-    ProfileEntry{61, 40, 20, kQualitative, 1},
-    ProfileEntry{62, 40, 20, kQualitative, 1},
-    ProfileEntry{63, 90, 40, kQualitative, 1},
+    ProfileEntry{61, 30, 15, kQualitative, 1},
+    ProfileEntry{62, 30, 15, kQualitative, 1},
+    ProfileEntry{63, 50, 20, kQualitative, 0},
 };
 
 // Lips of fear and surprise: F11 is the gap between the outer lips and FAP 3 moves no lip, so the

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "assets/bake/human/bite.h"
 #include "assets/bake/human/cover.h"
 #include "assets/bake/human/figure.h"
 #include "assets/bake/human/inner_face.h"
@@ -56,23 +57,6 @@ Region quad_region(const Quad& quad, std::span<const Region> regions) {
   for (const std::uint32_t v : quad.vertex)
     if (regions[v] != regions[quad.vertex[0]]) return Region::body;
   return regions[quad.vertex[0]];
-}
-
-// Vertices of a part that hang on the jaw or on bones beneath it, by the part's own weights.
-std::vector<bool> on_jaw(const BaseHuman& base, const Proxy& proxy) {
-  const std::uint32_t jaw = base.bone("jaw");
-  std::vector<bool> beneath(base.bones().size(), false);
-  for (std::uint32_t b = 0; b < beneath.size(); ++b)
-    for (std::uint32_t up = b; up != kNone; up = base.bones()[up].parent)
-      if (up == jaw) beneath[b] = true;
-  std::vector<bool> out;
-  for (const Influence& influence : proxy.influence) {
-    float share = 0.0f;
-    for (std::size_t k = 0; k < 4; ++k)
-      if (beneath[influence.joint[k]]) share += influence.weight[k];
-    out.push_back(share > 0.5f);
-  }
-  return out;
 }
 
 class Builder {

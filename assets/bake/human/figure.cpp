@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "assets/bake/human/bite.h"
 #include "assets/bake/human/mesh_tools.h"
 #include "assets/bake/human/neutral.h"
 #include "assets/bake/human/repose.h"
@@ -114,6 +115,7 @@ Figure make_figure(const Recipe& recipe, const BaseHuman& base,
     }
     figure.parts.push_back(std::move(fitted));
   }
+  seat_bite(places, glm::mix(kIncisorShowMan_m, kIncisorShowWoman_m, recipe.macro.female), figure);
   for (const Bone& bone : base.bones())
     figure.bone_head_m.push_back(BaseHuman::mean(figure.base_m, bone.head_vertices));
   return figure;

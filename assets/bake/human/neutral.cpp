@@ -84,6 +84,25 @@ float height_at(const std::vector<Vec3>& p, const std::vector<std::uint32_t>& co
   return p[contour.back()].y;
 }
 
+// Where two lips meet at some |x|: midway, evened out along the line, for a bow with a point in the
+// middle becomes a notch as soon as the lips part.
+float meeting_at(const std::vector<Vec3>& p, const std::vector<std::uint32_t>& upper,
+                 const std::vector<std::uint32_t>& lower, float x) {
+  constexpr float kWindow_m = 0.006f;
+  constexpr int kSamples = 6;
+  const float end = std::abs(p[upper.back()].x);
+  // No wider than the way to the corner, which stays.
+  const float window = std::min(kWindow_m, end - x);
+  float sum = 0.0f, weights = 0.0f;
+  for (int i = -kSamples; i <= kSamples; ++i) {
+    const float t = static_cast<float>(i) / (kSamples + 1);
+    const float at = std::abs(x + t * window), weight = 1.0f - std::abs(t);
+    sum += weight * 0.5f * (height_at(p, upper, at) + height_at(p, lower, at));
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
 void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>& places,
@@ -111,7 +130,7 @@ void settle_neutral(const BaseHuman& base, const std::vector<FeaturePointPlace>&
       for (std::size_t i = 0; i + 1 < contour->size(); ++i) {
         const std::uint32_t v = (*contour)[i];
         const float x = std::abs(p[v].x);
-        const float meet = 0.5f * (height_at(p, u, x) + height_at(p, l, x));
+        const float meet = meeting_at(p, u, l, x);
         // A tenth of a millimetre of overlap seals the line.
         move[v] = meet - p[v].y + (contour == &u ? -5e-5f : 5e-5f);
         (contour == &u ? upper : lower).push_back(v);

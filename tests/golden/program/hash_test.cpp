@@ -17,7 +17,7 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0x122dbf771c441bf3u, kPoseHash = 0xe6921fa4466c792bu,
+constexpr std::uint64_t kJoyHash = 0x6db92757cac50611u, kPoseHash = 0x05aef1d8195e93b6u,
                         kDrawListHash = 0xadaf2a93da093767u;
 
 class Hash : public testing::Test {
