@@ -122,7 +122,7 @@ face::FapFrame IdleLife::face() const {
   for (const int fap : {23, 24}) faps.set(fap, (gaze_.yaw_rad - yaw) * kAnglesPerRadian);
   for (const int fap : {25, 26}) faps.set(fap, (gaze_.pitch_rad - pitch) * kAnglesPerRadian);
   for (const int fap : {31, 32, 33, 34}) faps.set(fap, brow_.value() * 9.0f);
-  for (const int fap : {19, 20, 21, 22}) faps.set(fap, blinker_.closure() * 1024.0f);
+  for (const int fap : {19, 20}) faps.set(fap, blinker_.closure() * 1024.0f);
   return faps;
 }
 

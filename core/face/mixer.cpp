@@ -47,16 +47,16 @@ void add_idle(const FapFrame& idle, FapFrame& frame) {
     if (idle.has(fap) && !is_lid(fap)) frame.set(fap, frame.get(fap) + idle.get(fap));
 }
 
-// Blinks close the lid from wherever it is, so that a wide-eyed face shuts its eyes too.
+// Blinks close the lid from wherever it is, so that a wide-eyed face shuts its eyes too. The upper
+// lid comes down; the lower one shifts by a small part of the opening (Evinger 1991).
 void add_blink(const FapFrame& idle, FapFrame& frame) {
+  constexpr float kLowerShare = 0.08f;
   for (int side = 0; side < 2; ++side) {
-    const float upper = std::clamp(value_in(&idle, 19 + side) / kClosed, 0.0f, 1.0f);
-    const float lower = std::clamp(value_in(&idle, 21 + side) / kClosed, 0.0f, 1.0f);
-    const float low = frame.get(21 + side);
-    const float raised = low + lower * (kClosed - low);
-    const float top = frame.get(19 + side);
+    const float closure = std::clamp(value_in(&idle, 19 + side) / kClosed, 0.0f, 1.0f);
+    const float top = frame.get(19 + side), low = frame.get(21 + side);
+    const float raised = low + closure * kLowerShare * std::max(kClosed - top - low, 0.0f);
     frame.set(21 + side, raised);
-    frame.set(19 + side, top + upper * (kClosed - raised - top));
+    frame.set(19 + side, top + closure * (kClosed - raised - top));
   }
 }
 
@@ -130,6 +130,21 @@ void keep_flesh_whole(FapFrame& frame) {
   for (const Tie& tie : kTies) pull(tie, frame);
 }
 
+void part_lips(FapFrame& frame) {
+  constexpr float kStretch = 600.0f;  // MNS; 10 mm.
+  const float lowest = kStretch - std::max(frame.get(3), kStretch);
+  for (const int fap : {5, 10, 11, 52, 57, 58}) frame.set(fap, std::min(frame.get(fap), lowest));
+}
+
+void keep_tongue_in(FapFrame& frame) {
+  constexpr float kBehindTeeth = 120.0f;  // MNS; 2 mm from its rest to the incisors.
+  // The tip is flat enough to reach out by this much for a unit of opening.
+  constexpr float kOutPerOpening = 2.0f;
+  const float lips = -frame.get(4) - frame.get(5);
+  const float open = std::max(std::min(frame.get(3), lips), 0.0f);
+  frame.set(45, std::min(frame.get(45), kBehindTeeth + kOutPerOpening * open));
+}
+
 void seal_lids(FapFrame& frame) {
   for (int side = 0; side < 2; ++side) {
     const float overlap = frame.get(19 + side) + frame.get(21 + side) - kClosed;
@@ -148,8 +163,10 @@ FapFrame MixJob::run() const {
     const auto i = static_cast<std::size_t>(fap);
     out.set(fap, soften(out.get(fap), limits->low[i], limits->high[i]));
   }
+  part_lips(out);
   keep_flesh_whole(out);
   seal_lips(out);
+  keep_tongue_in(out);
   seal_lids(out);
   for (int fap = 3; fap <= kFapCount; ++fap) {
     const auto i = static_cast<std::size_t>(fap);

@@ -19,8 +19,8 @@ struct MixJob {
   float speech_strength = 0.0f;
   // FAPs present here replace everything above: MPEG-4 streams are absolute.
   const FapFrame* stream = nullptr;
-  // Added on top: gaze, head sway, breath. Its lid FAPs 19-22 are blinks: 0 leaves the lid, 1024
-  // closes it from wherever it is.
+  // Added on top: gaze, head sway, breath. Its FAPs 19 and 20 are blinks: 0 leaves the lids, 1024
+  // shuts the eye from wherever they are; 21 and 22 are not looked at.
   const FapFrame* idle = nullptr;
   const FapLimits* limits = nullptr;  // Required.
 
@@ -38,6 +38,14 @@ void seal_lips(FapFrame& frame);
 // notch into it; frames with all points given (or filled) pass unchanged. Lip FAPs and 31-36
 // change.
 void keep_flesh_whole(FapFrame& frame);
+
+// Skin between lower lip and chin stretches only so far: a jaw that opens wider takes the lower lip
+// along. FAPs 5, 10, 11, 52, 57, 58 change.
+void part_lips(FapFrame& frame);
+
+// A tongue comes out only where teeth and lips leave room: the thrust of its tip ends there.
+// FAP 45 changes.
+void keep_tongue_in(FapFrame& frame);
 
 // Lids that would pass through each other meet: the upper lid gives way. FAPs 19, 20 change.
 void seal_lids(FapFrame& frame);

@@ -37,6 +37,20 @@ float body_share(const Tongue& tongue, Vec3 p) {
   return std::abs(d) < 1.0f ? (1.0f - d * d) * (1.0f - d * d) : 0.0f;
 }
 
+// A tip that comes out gets thin and pointed, or it would not pass between teeth and lips.
+Vec3 thrust(const Tongue& tongue, Vec3 p, float m) {
+  constexpr float kFull_m = 0.006f, kThinnest = 0.4f, kNarrowest = 0.85f, kHalfTip_m = 0.010f;
+  const float share = tip_share(tongue, p);
+  const float formed = share * smooth(m / kFull_m);
+  const float middle = 0.5f * (tongue.low.x + tongue.high.x), x = p.x - middle;
+  // The tip itself leads, its edges stay behind by up to a third of the way.
+  const float aside = std::abs(x) - std::abs(tongue.tip.x - middle);
+  const float t = std::clamp(aside / kHalfTip_m, 0.0f, 1.0f);
+  const float lag = m > 0.0f ? 0.3f * t * t : 0.0f;
+  return {-(1.0f - kNarrowest) * formed * x, -(1.0f - kThinnest) * formed * (p.y - tongue.tip.y),
+          m * share * (1.0f - lag)};
+}
+
 // Edges rise about the mid-line like the leaves of a book.
 Vec3 rolled(const Tongue& tongue, Vec3 p, float angle) {
   const float middle = 0.5f * (tongue.low.x + tongue.high.x);
@@ -73,14 +87,14 @@ std::vector<PartMove> tongue_moves(const Character& character, const Head& head,
     };
     add(43, [&](Vec3 p, float m) { return Vec3(-m * tip_share(tongue, p), 0, 0); });
     add(44, [&](Vec3 p, float m) { return Vec3(0, m * tip_share(tongue, p), 0); });
-    add(45, [&](Vec3 p, float m) { return Vec3(0, 0, m * tip_share(tongue, p)); });
+    add(45, [&](Vec3 p, float m) { return thrust(tongue, p, m); });
     add(46, [&](Vec3 p, float m) { return Vec3(0, m * body_share(tongue, p), 0); });
-    // It lies lower in an open mouth: the jaw takes it along, and it flattens besides.
+    // The jaw takes it along, and its back lowers besides: the tip stays behind the lower teeth.
     const float open_m = 400.0f * metres_per_unit(head, 3);
     add(3, [&](Vec3 p, float drop_m) {
-      constexpr float kFlatter = 0.4f;
+      constexpr float kFlatter = 0.5f;
       const float share = kFlatter * std::min(drop_m / open_m, 1.0f);
-      return Vec3(0, -share * (p.y - tongue.low.y), 0);
+      return Vec3(0, -share * std::max(p.y - tongue.tip.y, 0.0f), 0);
     });
     add(47, [&](Vec3 p, float angle) { return rolled(tongue, p, angle); });
   }

@@ -88,8 +88,8 @@ float height_at(const std::vector<Vec3>& p, const std::vector<std::uint32_t>& co
 // middle becomes a notch as soon as the lips part.
 float meeting_at(const std::vector<Vec3>& p, const std::vector<std::uint32_t>& upper,
                  const std::vector<std::uint32_t>& lower, float x) {
-  constexpr float kWindow_m = 0.006f;
-  constexpr int kSamples = 6;
+  constexpr float kWindow_m = 0.012f;
+  constexpr int kSamples = 8;
   const float end = std::abs(p[upper.back()].x);
   // No wider than the way to the corner, which stays.
   const float window = std::min(kWindow_m, end - x);

@@ -17,8 +17,8 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0x6db92757cac50611u, kPoseHash = 0x05aef1d8195e93b6u,
-                        kDrawListHash = 0xadaf2a93da093767u;
+constexpr std::uint64_t kJoyHash = 0x0111c4864df7fc3fu, kPoseHash = 0xdad1c1a980742feeu,
+                        kDrawListHash = 0xa25b5a03f1f35946u;
 
 class Hash : public testing::Test {
  protected:
