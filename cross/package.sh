@@ -42,6 +42,8 @@ package_of() {
     libpng16.so.16) [ "$release" = bookworm ] && echo libpng16-16 || echo libpng16-16t64 ;;
     libfreetype.so.6) echo libfreetype6 ;;
     libharfbuzz.so.0) echo libharfbuzz0b ;;
+    libfribidi.so.0) echo libfribidi0 ;;
+    libunibreak.so.1) echo libunibreak1 ;;
     libunibreak.so.5) echo libunibreak5 ;;
     libunibreak.so.6) echo libunibreak6 ;;
     *) fail "no Debian package is known for $1; add it to cross/package.sh" ;;

@@ -3,13 +3,37 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/agent/describe.h"
 #include "firmware-app/builtin.h"
+#include "firmware-app/pictures.h"
 
 namespace caryatid::app {
 namespace {
 
 void print(const Messages& messages) {
   for (const Message& m : messages.all()) std::fprintf(stderr, "caryatid: %s\n", m.line.c_str());
+}
+
+// Reads the pictures that a programme names, in their order; `take` gets each that is sound.
+template <class Take>
+bool read_pictures(const std::string& config, const agent::Programme& programme,
+                   std::uint32_t most_side, Take take) {
+  ProgrammeFiles files(config, builtin_programme());
+  bool all = true;
+  for (std::size_t p = 0; p < programme.pictures.size(); ++p) {
+    const std::string name(programme.text(programme.pictures[p].file));
+    std::string bytes, error;
+    Picture picture;
+    if (files.read(name, kMostPictureBytes, &bytes, &error) &&
+        decode_picture(bytes, most_side, &picture, &error)) {
+      take(p, picture);
+      continue;
+    }
+    all = false;
+    std::fprintf(stderr, "caryatid: %s: %s (the page is shown without it)\n",
+                 files.full_name(name).c_str(), error.c_str());
+  }
+  return all;
 }
 
 }  // namespace
@@ -20,6 +44,7 @@ bool Desk::compile(const std::string& config, CompiledProgramme* out) {
   font_ = font.value;
   ProgrammeFiles files(config, builtin_programme());
   *out = compile_programme(files, font_);
+  files_read_ = files.names_read();
   return !out->block.empty();
 }
 
@@ -30,6 +55,8 @@ bool Desk::open(const std::string& config) {
   if (!good && !config.empty()) {
     std::fputs("caryatid: the built-in programme stands in\n", stderr);
     good = compile("", &compiled);
+  } else {
+    config_ = config;
   }
   compiled_ = std::move(compiled.block);
   return good;
@@ -40,7 +67,15 @@ bool Desk::check(const std::string& config) {
   CompiledProgramme compiled;
   const bool good = desk.compile(config, &compiled);
   print(compiled.messages);
-  return good && compiled.messages.all().empty();
+  if (!good) return false;
+  std::vector<std::uint32_t> words((compiled.block.size() + 3) / 4);
+  std::memcpy(words.data(), compiled.block.data(), compiled.block.size());
+  const auto programme =
+      agent::read_programme(std::as_bytes(std::span(words)).first(compiled.block.size()),
+                            desk.font_.header->crc, desk.font_.glyphs.size());
+  const auto ignore = [](std::size_t, const Picture&) {};
+  return programme.ok() && read_pictures(config, programme.value, 64, ignore) &&
+         compiled.messages.all().empty();
 }
 
 bool Desk::take_memory(Arena& arena) {
@@ -52,13 +87,97 @@ bool Desk::take_memory(Arena& arena) {
                                                font_.header->crc, font_.glyphs.size());
   compiled_ = {};
   if (programme.ok()) guide_.take(programme.value);
+  if (!config_.empty()) reload_.watch(config_, files_read_);
   return programme.ok();
+}
+
+void Desk::load(platform::Renderer& renderer, std::uint32_t most_side) {
+  std::uint32_t side = 256;
+  while (side < most_side && side < 1024) side *= 2;
+  (void)renderer.load_font(font_);
+  (void)read_pictures(config_, programme(), side, [&](std::size_t p, const Picture& picture) {
+    if (renderer
+            .load_picture(static_cast<std::uint16_t>(p), picture.texture_width,
+                          picture.texture_height, picture.texels)
+            .ok())
+      pictures_[p] = {picture.width, picture.height};
+  });
+  signboard_.start(font_);
+}
+
+void Desk::reload(std::int64_t now_us, bool speaking) {
+  const auto other = std::as_writable_bytes(slots_[1 - slot_]);
+  if (new_bytes_ == 0) {
+    switch (reload_.poll(now_us, other, &new_bytes_)) {
+      case Reload::State::quiet:
+        new_bytes_ = 0;
+        break;
+      case Reload::State::failed:
+        new_bytes_ = 0;
+        std::fputs("caryatid: the changed texts are not used; the old ones go on\n", stderr);
+        break;
+      case Reload::State::ready:
+        break;
+    }
+  }
+  if (new_bytes_ > 0 && !speaking) adopt();
+}
+
+// Buttons belong to devices, which were opened at start: their names must stay.
+void Desk::adopt() {
+  const auto block = std::as_bytes(slots_[1 - slot_]).first(new_bytes_);
+  new_bytes_ = 0;
+  const auto next = agent::read_programme(block, font_.header->crc, font_.glyphs.size());
+  if (!next.ok()) {
+    std::fprintf(stderr, "caryatid: %s; the old texts go on\n",
+                 agent::refusal_text(static_cast<agent::ProgrammeRefusal>(next.status.detail)));
+    return;
+  }
+  const agent::Programme& old = programme();
+  bool same = next.value.buttons.size() == old.buttons.size();
+  for (std::size_t b = 0; same && b < old.buttons.size(); ++b)
+    same = next.value.text(next.value.buttons[b].name) == old.text(old.buttons[b].name);
+  if (!same) {
+    std::fputs("caryatid: kiosk.toml has other buttons now; start again to use them\n", stderr);
+    return;
+  }
+  // Pictures are in the GPU since start; another in their place is not.
+  for (std::size_t p = 0; p < next.value.pictures.size(); ++p)
+    if (p >= old.pictures.size() ||
+        next.value.text(next.value.pictures[p].file) != old.text(old.pictures[p].file))
+      pictures_[p] = {};
+  said_.clear();  // Its letters lie in the old block.
+  guide_.take(next.value);
+  slot_ = 1 - slot_;
+  std::fputs("caryatid: changed texts taken over\n", stderr);
+}
+
+void Desk::complete(agent::SignboardInput* io_frame) const {
+  io_frame->programme = &programme();
+  io_frame->guidance = &guide_.guidance();
+  io_frame->said = said_.text.empty() ? nullptr : &said_;
+  io_frame->now = now_;
+  io_frame->pictures = pictures_;
+}
+
+const scene::Box& Desk::stage(agent::SignboardInput frame, float dt_s) {
+  complete(&frame);
+  return signboard_.stage(frame, dt_s);
+}
+
+scene::Overlay Desk::overlay(agent::SignboardInput frame, float dt_s) {
+  complete(&frame);
+  return signboard_.overlay(frame, dt_s);
 }
 
 const agent::Guidance& Desk::step(float dt_s, std::span<const ButtonEvent> events,
                                   const agent::Moment& now, bool speaking) {
+  now_ = now;
   const agent::Guidance& g = guide_.step(dt_s, events, now, speaking);
-  if (g.says) {
+  if (g.describes) {
+    agent::describe(programme(), g, now, &said_);
+    ssml_.write(programme(), said_);
+  } else if (g.says) {
     const agent::Line* line = programme().line(g.say, g.language);
     if (line != nullptr) {
       agent::expand(programme(), *line, now, &said_);

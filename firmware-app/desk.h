@@ -7,10 +7,13 @@
 #include <string_view>
 
 #include "core/agent/guide.h"
+#include "core/agent/signboard.h"
 #include "core/agent/ssml.h"
 #include "core/base/arena.h"
 #include "core/pack/font.h"
+#include "firmware-app/reload.h"
 #include "firmware-app/texts/compile.h"
+#include "platform/render/render.h"
 
 namespace caryatid::app {
 
@@ -28,21 +31,45 @@ class Desk {
   // Moves the programme into memory of the agent. False: the arena is too small.
   bool take_memory(Arena& arena);
 
+  // Letters and pictures to the GPU. A picture that can't be used is said on stderr once; the page
+  // is shown without it. most_side: of the display, pixels.
+  void load(platform::Renderer& renderer, std::uint32_t most_side);
+
+  // Takes over changed texts, between two utterances. Once a frame; never waits; not for replays.
+  void reload(std::int64_t now_us, bool speaking);
+
   // One step of the guide. What it says is in ssml() until the next text begins.
   const agent::Guidance& step(float dt_s, std::span<const ButtonEvent> events,
                               const agent::Moment& now, bool speaking);
   std::string_view ssml() const { return ssml_.text(); }
   // Code of the voice for the text that is said.
   std::string_view voice() const;
+  // What is shown beside the person. `frame` brings the picture's size, the head and the voice; the
+  // rest is filled in here. First the place for the person, then, when the camera is aimed, the
+  // overlay.
+  const scene::Box& stage(agent::SignboardInput frame, float dt_s);
+  scene::Overlay overlay(agent::SignboardInput frame, float dt_s);
+  // Plain byte of a byte of ssml().
+  std::uint32_t plain_byte(std::uint32_t ssml_byte) const { return ssml_.plain_byte(ssml_byte); }
   const agent::Programme& programme() const { return guide_.programme(); }
 
  private:
   bool compile(const std::string& config, CompiledProgramme* out);
+  void adopt();
+  void complete(agent::SignboardInput* io_frame) const;
 
   pack::FontView font_;
   std::vector<std::byte> compiled_;  // Until take_memory().
   std::array<std::span<std::uint32_t>, 2> slots_;
+  std::string config_;  // Empty: the built-in programme.
+  std::array<agent::PictureSize, kMaxPictures> pictures_{};
+  agent::Moment now_;
+  Reload reload_;
+  std::vector<std::string> files_read_;
+  std::size_t slot_ = 0;       // Of slots_, in use.
+  std::size_t new_bytes_ = 0;  // Of the other one, compiled and waiting. 0: none.
   agent::Guide guide_;
+  agent::Signboard signboard_;
   agent::Utterable said_;
   agent::Ssml ssml_;
 };

@@ -207,8 +207,9 @@ bool Kiosk::start() {
   care_ = ScreenCare(config_.screen);
   agent_ = std::make_unique<agent::Agent>(options_.seed);
   open_speaker();
+  desk_.load(*renderer_, std::max(renderer_->width(), renderer_->height()));
   set_stage();
-  aim_camera();
+  aim_camera(0.0f);
   const std::string& name = options_.board;
   const lod::BoardCosts* costs = lod::find_board({name.data(), name.size()});
   lod::LodConfig lod_config;
@@ -366,7 +367,7 @@ float Kiosk::picture_aspect() const {
 }
 
 // Known before the levels are chosen: a camera that moves in asks for more detail at once.
-void Kiosk::aim_camera() {
+void Kiosk::aim_camera(float dt_s) {
   scene::Subject near_by = subject_;
   if (stage_) near_by.eyes_m = stage_->eyes_m();
   scene::Framing framing =
@@ -374,7 +375,11 @@ void Kiosk::aim_camera() {
   if (stage_ && options_.view == "auto")
     framing =
         scene::blend(scene::framing(scene::View::body, subject_), framing, stage_->closeness());
-  list_.camera = scene::make_camera(framing, picture_aspect(), options_.rotate_degrees);
+  const agent::SignboardInput seen = screen();
+  const scene::Box& box = desk_.stage(seen, dt_s);
+  list_.camera = scene::make_camera(
+      framing, picture_aspect(), options_.rotate_degrees,
+      {box.x0 / seen.width, box.y0 / seen.height, box.x1 / seen.width, box.y1 / seen.height});
 }
 
 // Dims and wanders what draw() composes, and switches the screen. A replay shows plain pictures.
@@ -400,7 +405,7 @@ void Kiosk::act(const Tick& tick) {
     ++service_.state().presses;
   }
   if (stage_) stage_->step(tick.dt_s, will, list_.camera.position_m);
-  aim_camera();
+  aim_camera(tick.dt_s);
   const face::FapFrame felt = emotion::expression(will.emotions);
   face::MixJob mix;
   mix.rest = &person_.rest_face();
@@ -484,6 +489,7 @@ bool Kiosk::draw(const Tick& tick) {
   // Drawn for nobody, a board would only grow warm; what changed meanwhile stays collected.
   if (!visible()) return true;
   person_.collect_patches(&list_.patches);
+  show_overlay(tick);
   const Status drawn = renderer_->draw(list_);
   if (drawn.code == Code::device_lost || g_gpu_reset.exchange(false)) return reopen_screen();
   if (frames_out_.wants(frame_number_)) {

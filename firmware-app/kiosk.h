@@ -91,8 +91,11 @@ class Kiosk {
   void load_more();
   void set_stage();
   float picture_aspect() const;
-  void aim_camera();
   void care_for_screen(float dt_s, const agent::Intentions& will);
+  void aim_camera(float dt_s);
+  agent::SignboardInput screen() const;
+  scene::Box head_box() const;
+  void show_overlay(const Tick& tick);
   void act(const Tick& tick);
   void keep_joints(body::BapConvention axes, body::BapFrame* io_body);
   const SpeechFrame& speak(const Tick& tick);

@@ -1,6 +1,7 @@
 // The kiosk's side of its programme: configuration, local time, and what the guide wants.
 #include <time.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include "firmware-app/builtin.h"
 #include "firmware-app/kiosk.h"
 #include "platform/buttons/scripted/scripted.h"
+#include "platform/clock/clock.h"
 
 namespace caryatid::app {
 namespace {
@@ -81,6 +83,7 @@ agent::Moment Kiosk::local_time(const Tick& tick) const {
 // What the buttons bring about goes to the mood, the body and the voice.
 void Kiosk::follow_programme(const Tick& tick) {
   const bool speaking = speaker_.frame().speaking;
+  if (!options_.virtual_clock) desk_.reload(platform::monotonic_us(), speaking);
   const agent::Guidance& g = desk_.step(tick.dt_s, events_.span(), local_time(tick), speaking);
   if (g.pressed) agent_->press();
   if (g.feels) agent_->feel(g.feel);
@@ -88,7 +91,7 @@ void Kiosk::follow_programme(const Tick& tick) {
   agent_->sleep(g.asleep);
   speaker_.set_volume(g.volume);
   if (g.hushes) speaker_.stop();
-  if (g.says) speaker_.say(desk_.ssml(), {.language = desk_.voice(), .ssml = true});
+  if (g.says || g.describes) speaker_.say(desk_.ssml(), {.language = desk_.voice(), .ssml = true});
 }
 
 // Marks of the text that is heard are gestures.
@@ -97,6 +100,48 @@ void Kiosk::obey_marks(const SpeechFrame& spoken) {
     for (int k = 1; k <= static_cast<int>(body::GestureKind::beat); ++k)
       if (std::strcmp(mark.c_str(), body::gesture_name(static_cast<body::GestureKind>(k))) == 0)
         agent_->gesture(static_cast<body::GestureKind>(k));
+}
+
+// The picture as the visitor sees it.
+agent::SignboardInput Kiosk::screen() const {
+  agent::SignboardInput seen;
+  seen.width = static_cast<float>(renderer_->width());
+  seen.height = static_cast<float>(renderer_->height());
+  seen.turn_degrees = options_.rotate_degrees;
+  if (seen.turn_degrees % 180 != 0) std::swap(seen.width, seen.height);
+  return seen;
+}
+
+// Around the feature points of the skull: crown, chin, ears, and a margin for hair.
+scene::Box Kiosk::head_box() const {
+  constexpr int kPoints[][2] = {{11, 4}, {11, 1}, {11, 6}, {2, 1}, {10, 9}, {10, 10}, {2, 10}};
+  constexpr float kMargin = 0.08f;
+  const agent::SignboardInput seen = screen();
+  scene::Box box{1e9f, 1e9f, -1e9f, -1e9f};
+  for (const auto& [group, index] : kPoints) {
+    if (pack::find_feature_point(person_.view(), group, index) == nullptr) continue;
+    const Vec3 at = scene::seen_at(list_.camera, person_.feature_point_m(group, index), seen.width,
+                                   seen.height, seen.turn_degrees);
+    if (at.z <= 0.0f) continue;
+    box = {std::min(box.x0, at.x), std::min(box.y0, at.y), std::max(box.x1, at.x),
+           std::max(box.y1, at.y)};
+  }
+  if (box.empty()) return {};
+  const float margin = kMargin * box.height();
+  return {box.x0 - margin, box.y0 - margin, box.x1 + margin, box.y1 + margin};
+}
+
+void Kiosk::show_overlay(const Tick& tick) {
+  if (player_.active()) return;  // A stream has the screen to itself.
+  agent::SignboardInput seen = screen();
+  seen.head = head_box();
+  const SpeechFrame& spoken = speaker_.frame();
+  seen.speaking = spoken.speaking;
+  const auto words = speaker_.words();
+  if (spoken.word >= 0 && static_cast<std::size_t>(spoken.word) < words.size())
+    seen.word_byte = static_cast<std::int32_t>(
+        desk_.plain_byte(words[static_cast<std::size_t>(spoken.word)].begin_byte));
+  list_.overlay = desk_.overlay(seen, tick.dt_s);
 }
 
 }  // namespace caryatid::app

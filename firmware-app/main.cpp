@@ -6,6 +6,7 @@
 #include "core/body/bap_table.h"
 #include "firmware-app/kiosk.h"
 #include "firmware-app/options.h"
+#include "firmware-app/reload.h"
 
 namespace {
 
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
     case Parsed::run:
       break;
   }
+  if (!options.compile.empty()) return compile_to_stdout(options.compile);
   if (options.check) return Kiosk::check(options) ? 0 : 1;
   if (options.list_hardware) return Kiosk::list_hardware(options) ? 0 : 1;
   std::signal(SIGTERM, on_signal);

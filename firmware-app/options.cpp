@@ -53,6 +53,8 @@ usage: caryatid [OPTIONS]
   --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --seed N               another idle life (default 1)
   --test-faults          for tests: SIGUSR1 stops the page flips, SIGUSR2 is a GPU reset
+  --compile-programme FILE   compile a kiosk.toml and its texts to stdout (the kiosk does this by
+                         itself, in a child process, when a text changes while it runs)
   --check                look at config and pack, say what is wrong, and exit
   --help, --version
 
@@ -94,6 +96,7 @@ enum Id : int {
   kJointLimits,
   kCheck,
   kTestFaults,
+  kCompile,
   kHelpId,
   kVersion,
 };
@@ -131,6 +134,7 @@ constexpr option kLong[] = {
     {"joint-limits", no_argument, nullptr, kJointLimits},
     {"check", no_argument, nullptr, kCheck},
     {"test-faults", no_argument, nullptr, kTestFaults},
+    {"compile-programme", required_argument, nullptr, kCompile},
     {"help", no_argument, nullptr, kHelpId},
     {"version", no_argument, nullptr, kVersion},
     {nullptr, 0, nullptr, 0},
@@ -238,6 +242,15 @@ bool take_path(int id, const char* text, Options* o) {
     case kState:
       o->state = text;
       return true;
+    case kConfig:
+      o->config = text;
+      return true;
+    case kPack:
+      o->pack = text;
+      return true;
+    case kCompile:
+      o->compile = text;
+      return true;
     default:
       return take_body(id, text, o);
   }
@@ -263,12 +276,6 @@ bool take(int id, const char* text, Options* o) {
   if (take_flag(id, o)) return true;
   double value = 0.0;
   switch (id) {
-    case kConfig:
-      o->config = text;
-      return true;
-    case kPack:
-      o->pack = text;
-      return true;
     case kDisplay:
       return one_of("display", text, {"auto", "drm", "window", "surfaceless", "none"}, &o->display);
     case kSize:

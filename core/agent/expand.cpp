@@ -6,6 +6,9 @@
 namespace caryatid::agent {
 namespace {
 
+constexpr std::int32_t kBlankWidth = 532;  // A quarter of an em, as in most fonts.
+constexpr std::uint32_t kPartPause_ms = 350;
+
 // The pieces of a variable's value, as indices into a language's table.
 struct Pieces {
   std::array<std::size_t, 5> index{};
@@ -132,7 +135,50 @@ class Expander {
 void expand(const Programme& programme, const Line& line, const Moment& now, Utterable* out) {
   out->clear();
   out->language = line.language;
+  append(programme, line, now, out);
+}
+
+void append(const Programme& programme, const Line& line, const Moment& now, Utterable* out) {
+  const auto at = static_cast<std::uint16_t>(out->text.size());
+  const bool other = line.language != out->language;
+  if (other) (void)out->cues.push({at, CueKind::language, 0, line.language});
   Expander(programme, line, now, out, &out->value_glyphs_).run();
+  const auto end = static_cast<std::uint16_t>(out->text.size());
+  if (other) (void)out->cues.push({end, CueKind::language, 0, out->language});
+}
+
+void append_value(const Programme& programme, std::uint16_t language, std::size_t value,
+                  Utterable* out) {
+  const Value& v = programme.values[language * kValueCount + value];
+  const std::size_t begin = out->text.size(), first = out->value_glyphs_.size();
+  for (const char c : programme.text(v.text))
+    if (!out->text.push(c)) return;
+  for (const scene::ShapedGlyph& g : programme.glyphs.subspan(v.glyphs.first, v.glyphs.count))
+    if (!out->value_glyphs_.push(g)) return;
+  scene::Run run;
+  run.glyphs = out->value_glyphs_.span().subspan(first);
+  run.width = static_cast<std::int32_t>(v.width);
+  run.text_begin = static_cast<std::uint16_t>(begin);
+  run.text_end = static_cast<std::uint16_t>(out->text.size());
+  (void)out->runs.push(run);
+}
+
+void append_blank(Utterable* out) {
+  if (!out->text.push(' ')) return;
+  scene::Run run;
+  run.width = kBlankWidth;
+  run.text_begin = static_cast<std::uint16_t>(out->text.size() - 1);
+  run.text_end = static_cast<std::uint16_t>(out->text.size());
+  run.blank = run.break_after = true;
+  (void)out->runs.push(run);
+}
+
+void begin_part(Utterable* out) {
+  if (out->runs.empty()) return;
+  out->runs[out->runs.size() - 1].must_break_after = true;
+  (void)out->text.push(' ');
+  const auto at = static_cast<std::uint16_t>(out->text.size());
+  (void)out->cues.push({at, CueKind::pause, 0, kPartPause_ms});
 }
 
 }  // namespace caryatid::agent

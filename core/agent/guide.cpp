@@ -89,6 +89,9 @@ void Guide::command(Command what) {
     case Command::hush:
       out_.hushes = true;
       break;
+    case Command::describe:
+      out_.describes = true;
+      break;
   }
 }
 
@@ -137,7 +140,7 @@ void Guide::forget_visitor() {
 const Guidance& Guide::step(float dt_s, std::span<const ButtonEvent> events, const Moment& now,
                             bool speaking) {
   const float dt = dt_s > 0.0f ? std::min(dt_s, 0.25f) : 0.0f;
-  out_.pressed = out_.feels = out_.says = out_.hushes = false;
+  out_.pressed = out_.feels = out_.says = out_.hushes = out_.describes = false;
   out_.gesture = body::GestureKind::none;
   if (programme_.header == nullptr) return out_;
   const Attract& attract = programme_.header->attract;

@@ -14,8 +14,9 @@ struct Guidance {
   bool feels = false;    // The person shall feel `feel`.
   emotion::Emotion feel = emotion::Emotion::calm;
   body::GestureKind gesture = body::GestureKind::none;
-  bool says = false;    // Text `say` begins, in place of what is being said.
-  bool hushes = false;  // What is being said ends.
+  bool describes = false;  // What is shown is to be said.
+  bool says = false;       // Text `say` begins, in place of what is being said.
+  bool hushes = false;     // What is being said ends.
 
   std::uint16_t say = kNone;  // Text that was said last.
   std::uint16_t page = 0, language = 0, picture = kNone;

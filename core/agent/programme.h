@@ -37,10 +37,11 @@ enum class Command : std::uint8_t {
   repeat,  // Says the last text again.
   back,    // To the page before.
   hush,
+  describe,  // Says what is shown: title, text, picture, menu.
 };
-inline constexpr std::array<std::string_view, 10> kCommandNames = {
-    "none",   "next-language", "large-text", "high-contrast", "captions",
-    "louder", "softer",        "repeat",     "back",          "hush"};
+inline constexpr std::array<std::string_view, 11> kCommandNames = {
+    "none",   "next-language", "large-text", "high-contrast", "captions", "louder",
+    "softer", "repeat",        "back",       "hush",          "describe"};
 
 // What a button, a menu entry or a page brings about. Everything at once; kNone and 0xFF: leave it.
 struct Action {
@@ -242,10 +243,19 @@ struct Utterable {
   }
 
  private:
-  friend void expand(const Programme&, const Line&, const Moment&, Utterable*);
+  friend void append(const Programme&, const Line&, const Moment&, Utterable*);
+  friend void append_value(const Programme&, std::uint16_t, std::size_t, Utterable*);
   FixedVector<scene::ShapedGlyph, 512> value_glyphs_;
 };
 // Text that does not fit is cut behind a whole word. O(text).
 void expand(const Programme& programme, const Line& line, const Moment& now, Utterable* out);
+// The same behind what is there already; another language is marked by a cue.
+void append(const Programme& programme, const Line& line, const Moment& now, Utterable* out);
+// One value of a language's table (kDigitValues and so on), or a blank.
+void append_value(const Programme& programme, std::uint16_t language, std::size_t value,
+                  Utterable* out);
+void append_blank(Utterable* out);
+// What follows begins a line of its own, after a pause.
+void begin_part(Utterable* out);
 
 }  // namespace caryatid::agent

@@ -153,8 +153,14 @@ void Stage::beat(float size) {
 
 // Small signs with the feelings that have one; the hands stay down, the camera is near.
 void Stage::gesture(const Intentions& will) {
-  if (will.gesture != body::GestureKind::none)
-    gestures_.start({.kind = will.gesture, .target_m = setup_.points_at_m});
+  const bool faces = std::abs(wrapped(walker_.heading_rad())) < 0.6f;
+  const bool points = will.gesture == body::GestureKind::point;
+  if (will.gesture != body::GestureKind::none && (faces || !points)) {
+    const Vec3 from{walker_.place().x, 0.0f, walker_.place().y};
+    gestures_.start({.kind = will.gesture,
+                     .left = points && setup_.points_at_m.x > 0.0f,
+                     .target_m = from + setup_.points_at_m});
+  }
   if (will.emotion == gestured_) return;
   gestured_ = will.emotion;
   if (gestured_ == emotion::Emotion::joy)

@@ -23,8 +23,8 @@ struct StageSetup {
   bool walks = true;           // false: she stands in the middle from the start and stays.
   float half_width_m = 1.6f;   // What the camera sees to each side where she stands, body in view.
   Vec3 eyes_m{0, 1.6f, 0.1f};  // Midway between the eyes at rest.
-  Vec3 points_at_m{-0.6f, 1.3f, 0.8f};  // Of a pointing gesture: where pictures are shown.
   float sleep_s = 90.0f;  // Without a visitor (the agent is not busy) for so long she walks off.
+  Vec3 points_at_m{0.9f, 1.35f, 0.7f};  // From her feet: where pictures are shown.
   std::uint64_t seed = 1;
 };
 

@@ -95,9 +95,12 @@ Framing blend(const Framing& a, const Framing& b, float t) {
   return f;
 }
 
-Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degrees) {
+Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degrees,
+                   const Window& window) {
   const bool sideways = turn_degrees == 90 || turn_degrees == 270;
-  const float seen_aspect = sideways ? 1.0f / aspect : aspect;
+  const float across = std::max(window.x1 - window.x0, 0.05f);
+  const float upright = std::max(window.y1 - window.y0, 0.05f);
+  const float seen_aspect = (sideways ? 1.0f / aspect : aspect) * (across / upright);
   const float height_m =
       std::max(framing.visible_height_m, framing.visible_width_m / std::max(seen_aspect, 0.01f));
   const SinCos half = sin_cos(kHalfFieldOfView_rad);
@@ -111,6 +114,12 @@ Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degr
   p[2][2] = -(kFar_m + kNear_m) / (kFar_m - kNear_m);
   p[2][3] = -1.0f;
   p[3][2] = -2.0f * kFar_m * kNear_m / (kFar_m - kNear_m);
+  // The window's own clip space becomes a part of the picture's.
+  Mat4 place{1.0f};
+  place[0][0] = across;
+  place[1][1] = upright;
+  place[3][0] = window.x0 + window.x1 - 1.0f;
+  place[3][1] = 1.0f - window.y0 - window.y1;
   // The mounted panel shows the picture turned: rotate clip space against it. Exact for 90 degrees.
   constexpr float kCos[4] = {1, 0, -1, 0}, kSin[4] = {0, 1, 0, -1};
   const std::uint32_t quarter = (turn_degrees / 90) % 4;
@@ -118,8 +127,19 @@ Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degr
   turn[0][0] = turn[1][1] = kCos[quarter];
   turn[0][1] = -kSin[quarter];
   turn[1][0] = kSin[quarter];
-  c.projection = turn * p;
+  c.projection = turn * (place * p);
   return c;
+}
+
+Vec3 seen_at(const Camera& camera, Vec3 point_m, float width, float height,
+             std::uint32_t turn_degrees) {
+  const Vec4 clip = camera.projection * (camera.view * Vec4{point_m, 1.0f});
+  const float w = clip.w > 1e-4f ? clip.w : 1e-4f;
+  constexpr float kCos[4] = {1, 0, -1, 0}, kSin[4] = {0, 1, 0, -1};
+  const std::uint32_t quarter = (turn_degrees / 90) % 4;
+  const float x = (kCos[quarter] * clip.x - kSin[quarter] * clip.y) / w;
+  const float y = (kSin[quarter] * clip.x + kCos[quarter] * clip.y) / w;
+  return {0.5f * (x + 1.0f) * width, 0.5f * (1.0f - y) * height, clip.w};
 }
 
 }  // namespace caryatid::scene

@@ -27,8 +27,20 @@ Framing framing(View view, const Subject& subject);
 // t = 0 is a, 1 is b.
 Framing blend(const Framing& a, const Framing& b, float t);
 
+// The part of the visitor's picture in which the subject is framed; shares of its sides, from the
+// upper left corner. The picture goes on around it.
+struct Window {
+  float x0 = 0, y0 = 0, x1 = 1, y1 = 1;
+};
+
 // aspect: width over height of the picture. turn: 0, 90, 180, 270 degrees clockwise, for displays
 // that are mounted turned; aspect is then that of the unturned panel.
-Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degrees = 0);
+Camera make_camera(const Framing& framing, float aspect, std::uint32_t turn_degrees = 0,
+                   const Window& window = {});
+
+// Where a point is seen, in pixels of the visitor's picture of this size, and how far from the
+// camera; behind it the distance is negative.
+Vec3 seen_at(const Camera& camera, Vec3 point_m, float width, float height,
+             std::uint32_t turn_degrees = 0);
 
 }  // namespace caryatid::scene

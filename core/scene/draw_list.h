@@ -9,6 +9,7 @@
 #include "core/base/vec.h"
 #include "core/face/wrinkles.h"
 #include "core/mesh/vertex.h"
+#include "core/scene/overlay.h"
 
 namespace caryatid::scene {
 
@@ -77,6 +78,7 @@ struct DrawList {
   // then corneas. A renderer may draw an alpha item in two passes.
   FixedVector<DrawItem, kMaxDrawItems> items;
   FixedVector<Affine, kMaxDrawItems * kMaxBonesPerDraw> bones;
+  Overlay overlay;  // Set by its owner, not by ComposeJob.
 };
 
 }  // namespace caryatid::scene

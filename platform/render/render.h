@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/base/status.h"
+#include "core/pack/font.h"
 #include "core/pack/view.h"
 #include "core/scene/draw_list.h"
 #include "platform/error_line.h"
@@ -56,6 +57,11 @@ class Renderer {
 
   // (Re)loads a texture of the pack: all levels, or those from Texture::base_level on.
   virtual Status upload_texture(std::uint16_t texture, bool all_levels) = 0;
+  // The letters of DrawList::overlay, once, and its pictures (RGB565, powers of two, first row on
+  // top). Without letters no overlay is drawn.
+  virtual Status load_font(const pack::FontView& font) = 0;
+  virtual Status load_picture(std::uint16_t index, std::uint16_t width, std::uint16_t height,
+                              std::span<const std::uint16_t> rgb565) = 0;
   // New size of the display. Reallocates own framebuffers.
   virtual Status resize(std::uint32_t width, std::uint32_t height) = 0;
   // Uploads the patches and draws. device_lost (lost): see DisplayFault::context_lost.

@@ -16,6 +16,9 @@ foreach(source ${fuzz_sources})
   endif()
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE caryatid_agent caryatid_flags)
+  if(reader STREQUAL ssml)
+    target_sources(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware-app/texts/ssml_parser.cpp)
+  endif()
   # Readers of the content tools, which these presets do not build.
   if(reader STREQUAL mesh OR reader STREQUAL points)
     file(GLOB mesh_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/assets/bake/mesh_io/*.cpp

@@ -45,6 +45,13 @@ add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/confi
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
 caryatid_unit(firmware-app/texts caryatid_texts)
+add_executable(unit_firmware_pictures ${CMAKE_CURRENT_LIST_DIR}/firmware-app/pictures_test.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/pictures.cpp)
+target_include_directories(unit_firmware_pictures SYSTEM PRIVATE /usr/include/stb)
+target_compile_definitions(unit_firmware_pictures PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+target_link_libraries(unit_firmware_pictures PRIVATE caryatid_agent caryatid_board_flags
+  GTest::gtest_main)
+add_test(NAME unit_firmware_pictures COMMAND unit_firmware_pictures)
 caryatid_unit(platform/render caryatid_render)
 foreach(room watchdog thermal control files inventory log)
   caryatid_unit(platform/${room} caryatid_board)

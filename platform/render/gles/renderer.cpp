@@ -6,6 +6,7 @@
 
 #include "platform/render/gles/buffers.h"
 #include "platform/render/gles/gl.h"
+#include "platform/render/gles/overlay.h"
 #include "platform/render/gles/shaders.h"
 #include "platform/render/gles/target.h"
 #include "platform/render/gles/textures.h"
@@ -36,6 +37,11 @@ class GlesRenderer final : public Renderer {
   Status upload_texture(std::uint16_t texture, bool all_levels) override {
     return textures_.upload(pack_, caps_, texture, all_levels);
   }
+  Status load_font(const pack::FontView& font) override { return overlay_.load_font(font); }
+  Status load_picture(std::uint16_t index, std::uint16_t width, std::uint16_t height,
+                      std::span<const std::uint16_t> rgb565) override {
+    return overlay_.load_picture(index, width, height, rgb565);
+  }
   Status resize(std::uint32_t width, std::uint32_t height) override {
     return target_.create(width, height);
   }
@@ -49,6 +55,7 @@ class GlesRenderer final : public Renderer {
   void use(Program& program, const scene::DrawList& list);
   void draw_background(const scene::DrawList& list);
   void draw_floor_shadows(const scene::DrawList& list);
+  void draw_overlay(const scene::Overlay& overlay);
   void bind_quad();
   void set_attributes(bool mesh);
   bool context_lost() const {
@@ -62,6 +69,7 @@ class GlesRenderer final : public Renderer {
   Target target_{caps_, extra_, options_};
   Programs programs_;
   Textures textures_;
+  OverlayDrawer overlay_;
   std::array<MeshBuffers, kMaxObjects> meshes_;
   GLuint quad_buffer_ = 0;
   Mat4 view_projection_{1.0f};
@@ -203,6 +211,16 @@ void GlesRenderer::draw_floor_shadows(const scene::DrawList& list) {
   glDisable(GL_BLEND);
 }
 
+// At full resolution, whatever the scene's.
+void GlesRenderer::draw_overlay(const scene::Overlay& overlay) {
+  if (overlay.quads.empty()) return;
+  target_.bind_final();
+  cost_.uploaded_bytes += overlay_.draw(overlay, programs_.overlay(), width(), height());
+  ++cost_.draw_calls;
+  cost_.triangles += 2 * static_cast<std::uint32_t>(overlay.quads.size());
+  set_attributes(false);
+}
+
 Status GlesRenderer::draw(const scene::DrawList& list) {
   ++frame_;
   cost_ = {};
@@ -234,6 +252,7 @@ Status GlesRenderer::draw(const scene::DrawList& list) {
   glDepthMask(GL_TRUE);
   set_attributes(false);
   target_.finish(programs_.quad(), quad_buffer_);
+  draw_overlay(list.overlay);
   if (context_lost()) return fail(RenderFault::lost, Code::device_lost);
   return all_valid_ ? Status{} : fail(RenderFault::draw_list, Code::invalid_argument);
 }

@@ -324,4 +324,39 @@ void main() {
 }
 )";
 
+// Letters and boxes from a distance field on unit 0, a picture on unit 1. The shape holds where the
+// edge lies, how sharp it is (in quarters) and whether it is a picture.
+inline constexpr char kOverlayVertex[] = R"(
+attribute vec2 a_position;
+attribute vec2 a_uv;
+attribute vec4 a_normal;
+attribute vec4 a_bone;
+uniform vec4 u_place;
+varying vec2 v_uv;
+varying vec4 v_ink;
+varying vec3 v_shape;
+void main() {
+  v_uv = a_uv;
+  v_ink = a_normal;
+  v_shape = vec3(a_bone.x, a_bone.y * 63.75, a_bone.z);
+  vec2 p = vec2(a_position.x * u_place.x - 1.0, 1.0 - a_position.y * u_place.y);
+  vec2 turned = vec2(u_place.z * p.x + u_place.w * p.y, u_place.z * p.y - u_place.w * p.x);
+  gl_Position = vec4(turned, 0.0, 1.0);
+}
+)";
+inline constexpr char kOverlayFragment[] = R"(
+precision mediump float;
+varying vec2 v_uv;
+varying vec4 v_ink;
+varying vec3 v_shape;
+uniform sampler2D u_texture;
+uniform sampler2D u_picture;
+void main() {
+  float field = texture2D(u_texture, v_uv).a;
+  float cover = clamp((field - v_shape.x) * v_shape.y + 0.5, 0.0, 1.0);
+  vec3 picture = texture2D(u_picture, v_uv).rgb;
+  gl_FragColor = vec4(mix(v_ink.rgb, picture, v_shape.z), v_ink.a * mix(cover, 1.0, v_shape.z));
+}
+)";
+
 }  // namespace caryatid::platform::gles

@@ -127,6 +127,7 @@ Programs::~Programs() {
   glDeleteProgram(quad_);
   glDeleteProgram(background_);
   glDeleteProgram(floor_shadow_);
+  glDeleteProgram(overlay_);
 }
 
 Status Programs::create(const pack::View& pack, ErrorLine& out_error) {
@@ -146,7 +147,8 @@ Status Programs::create(const pack::View& pack, ErrorLine& out_error) {
       link({{kBackgroundVertex, "", "", ""}}, {{kBackgroundFragment, "", "", ""}}, out_error);
   floor_shadow_ =
       link({{kFloorShadowVertex, "", "", ""}}, {{kFloorShadowFragment, "", "", ""}}, out_error);
-  const bool all = quad_ != 0 && background_ != 0 && floor_shadow_ != 0;
+  overlay_ = link({{kOverlayVertex, "", "", ""}}, {{kOverlayFragment, "", "", ""}}, out_error);
+  const bool all = quad_ != 0 && background_ != 0 && floor_shadow_ != 0 && overlay_ != 0;
   return all ? Status{} : fail(RenderFault::program);
 }
 

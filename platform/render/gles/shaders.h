@@ -43,10 +43,11 @@ class Programs {
   GLuint quad() const { return quad_; }                  // u_scale; samples unit 0
   GLuint background() const { return background_; }      // u_top, u_bottom: sRGB
   GLuint floor_shadow() const { return floor_shadow_; }  // u_view_projection, u_center, u_half
+  GLuint overlay() const { return overlay_; }            // u_place, u_picture
 
  private:
   Program scene_[kKindCount][kTierCount][kPassCount];
-  GLuint quad_ = 0, background_ = 0, floor_shadow_ = 0;
+  GLuint quad_ = 0, background_ = 0, floor_shadow_ = 0, overlay_ = 0;
 };
 
 // The passes that a material is drawn in: one, or core and edge.

@@ -17,6 +17,11 @@ class NullRenderer final : public Renderer {
     if (texture < pack_.textures.size()) return {};
     return {Code::invalid_argument, static_cast<std::uint16_t>(RenderFault::texture)};
   }
+  Status load_font(const pack::FontView&) override { return {}; }
+  Status load_picture(std::uint16_t, std::uint16_t, std::uint16_t,
+                      std::span<const std::uint16_t>) override {
+    return {};
+  }
   Status resize(std::uint32_t width, std::uint32_t height) override {
     width_ = width;
     height_ = height;

@@ -29,7 +29,7 @@ TEST(Messages, HelpIsWhole) {
   for (const char* option :
        {"--config", "--pack", "--display", "--size", "--rotate", "--target-fps", "--script",
         "--virtual-clock", "--board", "--duration", "--frames-out", "--frames-every", "--metrics",
-        "--play", "--lod", "--check", "example:"})
+        "--play", "--lod", "--check", "--now", "--compile-programme", "example:"})
     EXPECT_NE(run.output.find(option), std::string::npos) << option;
 }
 

@@ -17,9 +17,10 @@ struct Outcome {
   std::string output;  // stdout and stderr.
 };
 
-inline Outcome run_program(const std::string& arguments) {
+// before: for the shell, in front of the program.
+inline Outcome run_program(const std::string& arguments, const std::string& before = "") {
   Outcome run;
-  const std::string command = std::string(CARYATID_PROGRAM) + " " + arguments + " 2>&1";
+  const std::string command = before + std::string(CARYATID_PROGRAM) + " " + arguments + " 2>&1";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return run;
   char piece[512];

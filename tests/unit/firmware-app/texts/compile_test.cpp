@@ -1,5 +1,6 @@
 #include "firmware-app/texts/compile.h"
 
+#include "core/agent/describe.h"
 #include "core/agent/ssml.h"
 #include "tests/unit/firmware-app/texts/desk_of.h"
 
@@ -33,6 +34,25 @@ TEST(Compile, TheDefaultProgrammeIsWithoutFault) {
   EXPECT_EQ(desk.said(0, 1), "Καλώς ήρθατε! Πατήστε πέντε για χάρτες.");
   for (const char* name : {"joy", "sadness", "anger", "fear", "disgust", "surprise", "calm"})
     EXPECT_GE(desk.programme.find_button(name), 0) << name;
+}
+
+// The page of maps for a visitor who does not see it.
+TEST(Describe, SaysTitleTextPictureAndMenu) {
+  DeskOf desk(
+      {{"kiosk.toml",
+        "[[picture]]\nname = 'm'\nfile = 'm.png'\n[[page]]\nname = 'p'\n"
+        "show = 'm'\n[page.on]\n'5' = { go = 'p' }\n[[button]]\nname = '5'\n"},
+       {"texts/en.toml", "[p]\ntitle = 'Maps'\nbody = 'Here.'\n[picture]\nm = 'A plan'\n"}});
+  EXPECT_EQ(desk.messages(), "");
+  agent::Guidance shown;
+  shown.picture = 0;
+  agent::describe(desk.programme, shown, {}, &desk.expanded);
+  const std::string text(desk.expanded.text.begin(), desk.expanded.text.end());
+  EXPECT_EQ(text, "Maps Here. A plan 5: Maps");
+  scene::TextLines lines;
+  scene::break_lines(desk.expanded.runs.span(), 1 << 20, &lines);
+  EXPECT_EQ(lines.size(), 4u);
+  EXPECT_EQ(desk.expanded.cues.size(), 3u);  // A pause before each part but the first.
 }
 
 TEST(Compile, VariablesAreFilledIn) {
