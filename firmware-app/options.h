@@ -37,7 +37,7 @@ struct Options {
   bool joint_limits = false;
   bool check = false;
   bool test_faults = false;  // Signals bring on faults that no machine has at will.
-  std::string compile;  // --compile-programme: that kiosk.toml goes compiled to stdout.
+  std::string compile;       // --compile-programme: that kiosk.toml goes compiled to stdout.
   bool list_hardware = false;
 };
 
