@@ -3,6 +3,7 @@
 find_package(Eigen3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
+pkg_check_modules(FLAC REQUIRED IMPORTED_TARGET flac)
 pkg_check_modules(FONTS REQUIRED IMPORTED_TARGET freetype2 harfbuzz harfbuzz-subset)
 add_library(caryatid_host_libraries INTERFACE)
 target_include_directories(caryatid_host_libraries SYSTEM INTERFACE
@@ -21,6 +22,6 @@ endif()
 if(tool_sources)
   add_executable(caryatid-tool ${tool_sources})
   target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_render caryatid_display
-    caryatid_voice_client ZLIB::ZLIB
+    caryatid_voice_client ZLIB::ZLIB PkgConfig::FLAC
     caryatid_flags)
 endif()

@@ -28,7 +28,7 @@ packages=(
   libegl-mesa0 libgl1-mesa-dri                                 # software rendering
   libgpiod-dev libhidapi-dev                                   # buttons
   libasound2-dev libespeak-ng-dev espeak-ng-data               # sound and voice
-  zlib1g-dev                                                   # moving pictures
+  zlib1g-dev libflac-dev                                       # moving pictures, recordings
   libeigen3-dev nlohmann-json3-dev libstb-dev                  # bake
   fonts-dejavu-core                                            # captions of sheets
   libfreetype-dev libharfbuzz-dev fonts-noto-core              # glyphs of the kiosk's captions

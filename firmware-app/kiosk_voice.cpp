@@ -9,6 +9,7 @@ void Kiosk::open_speaker() {
   std::string error;
   const SpeakerOptions options{.audio = options_.audio,
                                .voice = options_.voice,
+                               .recordings = options_.recordings,
                                .lockstep = options_.virtual_clock,
                                .seed = options_.seed};
   if (!speaker_.open(options, &error))

@@ -42,6 +42,8 @@ usage: caryatid [OPTIONS]
   --audio KIND           auto, alsa, alsa:DEVICE, file:PATH.wav or null (default auto: ALSA's
                          default device, else null; under --virtual-clock null)
   --voice PATH           the program that speaks (default: caryatid-voice beside this one)
+  --recordings DIR       texts that caryatid-tool speech bake or time has put there are played,
+                         not synthesised
   --say TEXT             speak this at the start, in --language TAG (default en)
   --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
   --metrics FILE         JSON lines, one a frame
@@ -81,6 +83,7 @@ enum Id : int {
   kPlay,
   kAudio,
   kVoice,
+  kRecordings,
   kSay,
   kLanguage,
   kLod,
@@ -119,6 +122,7 @@ constexpr option kLong[] = {
     {"play", required_argument, nullptr, kPlay},
     {"audio", required_argument, nullptr, kAudio},
     {"voice", required_argument, nullptr, kVoice},
+    {"recordings", required_argument, nullptr, kRecordings},
     {"say", required_argument, nullptr, kSay},
     {"language", required_argument, nullptr, kLanguage},
     {"lod", required_argument, nullptr, kLod},
@@ -308,6 +312,9 @@ bool take(int id, const char* text, Options* o) {
       return audio_kind(text, o);
     case kVoice:
       o->voice = text;
+      return true;
+    case kRecordings:
+      o->recordings = text;
       return true;
     case kSay:
       o->say = text;

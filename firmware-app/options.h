@@ -24,6 +24,7 @@ struct Options {
   std::string play;
   std::string audio = "auto";  // auto, alsa, alsa:DEVICE, file:PATH, null.
   std::string voice;           // Path of caryatid-voice; empty: beside this program.
+  std::string recordings;      // Folder of recorded texts; empty: none.
   std::string say;
   std::string language = "en";  // Of `say`.
   std::string lod = "auto";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "core/speech/liveliness.h"
@@ -85,6 +86,7 @@ struct Speaker::State {
 
   explicit State(std::uint64_t seed) : life(seed) {}
 
+  void find_recording(std::string_view named);
   bool begin_voice(std::int64_t now_us);
   void go_silent(const char* why);
   void fill(std::int64_t now_us);
@@ -109,6 +111,7 @@ struct Speaker::State {
   std::uint32_t from_byte = 0;  // Where the voice starts (again).
   FixedString<31> language;
   FixedString<240> recording;
+  FixedString<160> recordings;  // The folder.
   bool ssml = false;
   float rate = 1.0f, pitch = 1.0f;
 
@@ -139,6 +142,7 @@ bool Speaker::open(const SpeakerOptions& options, std::string* out_error) {
   state_ = std::make_unique<State>(options.seed);
   State& s = *state_;
   s.lockstep = options.lockstep;
+  s.recordings.assign(options.recordings);
   platform::ErrorLine error;
   platform::AudioOptions audio{
       .kind = options.audio, .rate_hz = kRate_hz, .lockstep = options.lockstep};
@@ -164,7 +168,7 @@ void Speaker::say(std::string_view text, const SayOptions& options) {
   bool cut = false;
   s.text_bytes = speech::mend_text(text, s.text, &cut);
   s.language.assign(options.language);
-  s.recording.assign(options.recording);
+  s.find_recording(options.recording);
   s.ssml = options.ssml;
   s.rate = options.rate;
   s.pitch = options.pitch;
@@ -202,6 +206,17 @@ void Speaker::State::end() {
 
 void Speaker::set_volume(float volume) {
   if (state_->audio) state_->audio->set_volume(volume);
+}
+
+// The recording of the text: as named, or where there is one in the folder.
+void Speaker::State::find_recording(std::string_view named) {
+  recording.assign(named);
+  if (!named.empty() || recordings.size() == 0) return;
+  const auto name = speech::recording_name({text.data(), text_bytes}, language.span());
+  char path[256];
+  std::snprintf(path, sizeof path, "%s/%s.wav", recordings.c_str(), name.c_str());
+  if (access(path, R_OK) != 0) return;
+  recording.assign(std::string_view(path, std::strlen(path) - 4));
 }
 
 // Asks the recording, then the synthesis. False: the mode is waiting or silent now.

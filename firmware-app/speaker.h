@@ -28,8 +28,9 @@ struct SayOptions {
   float rate = 1.0f;        // Of the voice's own speed; cut to 0.5..2.
   float pitch = 1.0f;       // Of the voice's own; cut to 0.5..2.
   float liveliness = 1.0f;  // Of brows, head and hands on stressed words; 0 none .. 1.5.
-  // A baked recording without its suffix: RECORDING.wav and RECORDING.timing play in place of the
-  // synthesised voice. Empty: none. A damaged or missing one: the voice speaks the text.
+  // A recording without its suffix: RECORDING.wav and RECORDING.timing play in place of the
+  // synthesised voice. Empty: the one of SpeakerOptions::recordings, where there is one. A damaged
+  // one: the voice speaks the text.
   std::string_view recording = {};
 };
 
@@ -56,6 +57,7 @@ struct SpeechFrame {
 struct SpeakerOptions {
   std::string audio = "auto";  // auto, alsa, alsa:DEVICE, file:PATH.wav, null.
   std::string voice;           // Path of caryatid-voice; empty: beside this program, else PATH.
+  std::string recordings;      // Folder of recordings that are named by text; empty: none.
   bool lockstep = false;       // --virtual-clock: sound advances with the frames' times.
   std::uint64_t seed = 1;
 };

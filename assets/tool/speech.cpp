@@ -6,10 +6,13 @@
 #include "assets/bake/speech/align.h"
 #include "assets/bake/speech/contacts.h"
 #include "assets/bake/speech/sync.h"
+#include "assets/bake/stream/clip_files.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/spoken.h"
 #include "assets/tool/studio.h"
 #include "assets/tool/text_file.h"
+#include "core/speech/mouth.h"
+#include "core/speech/text.h"
 
 namespace caryatid::tool {
 namespace {
@@ -25,13 +28,40 @@ std::string without_suffix(const std::string& path, const std::string& suffix) {
   return path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
 }
 
-void bake_voice(const SpeechArgs& a) {
-  const std::string name = without_suffix(a.out, ".wav");
-  const Spoken spoken = speak(a.job);
+// NAME of an output: what stands there, or for a folder ("voices/") the name that the kiosk looks
+// for.
+std::string output_name(const SpeechArgs& a) {
+  if (a.out.ends_with('/'))
+    return a.out + speech::recording_name(a.job.text, a.job.language).c_str();
+  return without_suffix(without_suffix(a.out, ".wav"), ".timing");
+}
+
+void write_pair(const Spoken& spoken, const std::string& name) {
   write_wav(spoken, name + ".wav");
   write_text(name + ".timing", timing_text(spoken));
   std::printf("%s.wav and %s.timing: %.2f s, %zu events\n", name.c_str(), name.c_str(),
               spoken.end_ms * 1e-3, spoken.events.size());
+}
+
+void bake_voice(const SpeechArgs& a) { write_pair(speak(a.job), output_name(a)); }
+
+// The mouth as FAP 1 and nothing else, 25 frames a second, for streams of other players.
+void write_visemes(const SpeechArgs& a) {
+  constexpr double kFps = 25.0;
+  const Spoken spoken = speak(a.job);
+  const speech::Mouth mouth;
+  auto utterance = std::make_unique<speech::Utterance>();
+  bake::AnimationClip clip;
+  clip.frames_per_second = kFps;
+  for (double t = 0.0; t < spoken.end_ms; t += 1000.0 / kFps) {
+    fill_utterance(spoken, static_cast<std::int32_t>(t), utterance.get());
+    face::FapFrame frame;
+    frame.viseme = mouth.at(*utterance, static_cast<float>(t), 1000.0f / kFps).viseme;
+    frame.mask.set(face::kFapViseme);
+    clip.face.push_back(frame);
+  }
+  bake::write_fap(clip, a.out);
+  std::printf("%s: %zu frames\n", a.out.c_str(), clip.face.size());
 }
 
 // Phonemes in order, by blanks; "_" is a pause. Each gets its share of the recording by what it
@@ -64,7 +94,7 @@ std::pair<double, double> sounding_ms(const Spoken& recording) {
 }
 
 void time_recording(const SpeechArgs& a) {
-  const Spoken recording = read_wav(a.recording);
+  Spoken recording = read_recording(a.recording);
   Spoken timing = a.phones.empty() ? speak(a.job) : voice_of_phones(a.phones);
   std::int32_t before_ms = 0;
   const auto move = [&](auto map) {
@@ -82,10 +112,8 @@ void time_recording(const SpeechArgs& a) {
     const auto [from, to] = sounding_ms(recording);
     move([&, f = from, t = to](int ms) { return f + (t - f) * ms / timing.end_ms; });
   }
-  timing.end_ms = recording.end_ms;
-  write_text(a.out, timing_text(timing));
-  std::printf("%s: %zu events over %.2f s\n", a.out.c_str(), timing.events.size(),
-              timing.end_ms * 1e-3);
+  recording.events = std::move(timing.events);
+  write_pair(recording, output_name(a));
 }
 
 std::vector<bake::TimedPhone> phones_of(const Spoken& spoken) {
@@ -197,7 +225,7 @@ void add_speech_bake(CLI::App* speech) {
   CLI::App* cmd = speech->add_subcommand("bake", "Synthesise a text: NAME.wav and NAME.timing");
   cmd->add_option("text", a->job.text, "What is said, UTF-8")->required();
   add_voice_options(cmd, a.get());
-  cmd->add_option("-o,--out", a->out, "NAME, with or without .wav")->required();
+  cmd->add_option("-o,--out", a->out, "NAME, or FOLDER/ for caryatid --recordings")->required();
   cmd->footer("example: caryatid-tool speech bake \"Press five for maps.\" -o voice/maps");
   cmd->callback([a] { bake_voice(*a); });
 }
@@ -205,18 +233,28 @@ void add_speech_bake(CLI::App* speech) {
 void add_speech_time(CLI::App* speech) {
   auto a = std::make_shared<SpeechArgs>();
   CLI::App* cmd = speech->add_subcommand("time", "The timing of a recorded voice");
-  cmd->add_option("recording", a->recording, "RECORDING.wav")->required();
+  cmd->add_option("recording", a->recording, "RECORDING.wav or .flac")->required();
   CLI::Option* text = cmd->add_option("--text", a->job.text, "What is said in it, UTF-8");
   cmd->add_option("--phones", a->phones, "A file of its phonemes in IPA instead; _ is a pause")
       ->excludes(text);
   add_voice_options(cmd, a.get());
-  cmd->add_option("-o,--out", a->out, "OUT.timing")->required();
+  cmd->add_option("-o,--out", a->out, "OUT.timing (and OUT.wav), or FOLDER/")->required();
   cmd->footer("example: caryatid-tool speech time maps.wav --text \"Press five.\" -o maps.timing");
   cmd->callback([a] {
     if (a->job.text.empty() && a->phones.empty())
       throw CLI::ValidationError("time", "give --text TEXT or --phones FILE");
     time_recording(*a);
   });
+}
+
+void add_speech_visemes(CLI::App* speech) {
+  auto a = std::make_shared<SpeechArgs>();
+  CLI::App* cmd = speech->add_subcommand("visemes", "The mouth of a text as FAP 1, for streams");
+  cmd->add_option("text", a->job.text, "What is said, UTF-8")->required();
+  add_voice_options(cmd, a.get());
+  cmd->add_option("-o,--out", a->out, "OUT.fap")->required();
+  cmd->footer("example: caryatid-tool speech visemes \"Hello.\" -o hello.fap; then fba encode");
+  cmd->callback([a] { write_visemes(*a); });
 }
 
 void add_speech_sync(CLI::App* speech) {
@@ -248,6 +286,7 @@ void add_speech(CLI::App& app) {
   speech->require_subcommand(1);
   add_speech_bake(speech);
   add_speech_time(speech);
+  add_speech_visemes(speech);
   add_speech_sync(speech);
   add_speech_contacts(speech);
 }

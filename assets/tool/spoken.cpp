@@ -13,6 +13,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "assets/tool/flac.h"
 #include "assets/tool/text_file.h"
 #include "platform/audio/wav.h"
 #include "platform/voice/recorded/recorded.h"
@@ -203,6 +204,12 @@ Spoken read_wav(const std::string& path) {
     out.samples.push_back(static_cast<std::int16_t>(sum / format.channels));
   }
   return out;
+}
+
+Spoken read_recording(const std::string& path) {
+  char start[4] = {};
+  std::ifstream(path, std::ios::binary).read(start, sizeof start);
+  return std::memcmp(start, "fLaC", 4) == 0 ? read_flac(path) : read_wav(path);
 }
 
 std::string timing_text(const Spoken& spoken) {

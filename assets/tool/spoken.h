@@ -39,6 +39,8 @@ Spoken speak(const VoiceJob& job);
 void fill_utterance(const Spoken& spoken, std::int32_t now_ms, speech::Utterance* out);
 
 void write_wav(const Spoken& spoken, const std::string& path);
+// A WAV or FLAC by its first bytes. Throws, one line.
+Spoken read_recording(const std::string& path);
 // Any WAV of platform/audio/wav.h, mixed down to one channel; no events. Throws, one line.
 Spoken read_wav(const std::string& path);
 // The text of a timing file (platform/voice/recorded/recorded.h).

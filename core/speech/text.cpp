@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/crc.h"
+
 namespace caryatid::speech {
 namespace {
 
@@ -59,6 +61,18 @@ std::size_t mend_text(std::span<const char> text, std::span<char> out, bool* out
   }
   *out_cut = at < text.size();
   return *out_cut && after_word > 0 ? after_word : size;
+}
+
+FixedString<63> recording_name(std::span<const char> text, std::span<const char> language) {
+  char out[64];
+  std::size_t size = 0;
+  const std::uint64_t hash = hash_of(text);
+  for (int shift = 60; shift >= 0; shift -= 4)
+    out[size++] = "0123456789abcdef"[hash >> shift & 15u];
+  out[size++] = '-';
+  for (const char c : language)
+    if (size < 63) out[size++] = c == '/' || c == '.' ? '_' : c;
+  return FixedString<63>({out, size});
 }
 
 std::optional<ByteRange> next_word(std::span<const char> text, std::uint32_t from, bool ssml) {

@@ -14,6 +14,10 @@ namespace caryatid::speech {
 // O(bytes).
 std::size_t mend_text(std::span<const char> text, std::span<char> out, bool* out_cut);
 
+// What the files of a text's recording are called in a folder of recordings: a hash of its bytes
+// and the language, as "af63bd4c8601b7df-en".
+FixedString<63> recording_name(std::span<const char> text, std::span<const char> language);
+
 struct ByteRange {
   std::uint32_t begin = 0, end = 0;
 };

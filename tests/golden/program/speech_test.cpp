@@ -116,6 +116,24 @@ TEST_F(Speech, ACrashCostsOneSentence) {
   EXPECT_LE(heard, 2 * 1100);
 }
 
+TEST_F(Speech, ARecordingOfTheTextPlaysInPlaceOfTheVoice) {
+  // A tenth of a second at 44 100 Hz, under the name of the text "a".
+  const std::filesystem::path name = folder_ / "af63dc4c8601ec8c-en";
+  std::string wav(
+      "RIFF\x8c\x22\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x44\xac\0\0\x88\x58\1\0\2\0\x10\0data", 40);
+  wav += std::string("\x68\x22\0\0", 4) + std::string(2 * 4404, '\x10');
+  write_file(name.string() + ".wav", wav);
+  write_file(name.string() + ".timing",
+             "caryatid-timing 1\nword 0 0 1\nphone 0 \xC9\x91\nend 99\n");
+  const Outcome run = say("--say a --recordings " + folder_.string());
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, ::testing::Not(HasSubstr("captions go on"))) << run.output;
+  const std::string sound = content(this->wav());
+  const auto silent = std::count(sound.begin() + 44, sound.end(), '\0');
+  EXPECT_NEAR(static_cast<double>(sound.size()) - 44.0 - static_cast<double>(silent), 4404.0, 60.0);
+  EXPECT_EQ(most("word"), 0.0);
+}
+
 TEST_F(Speech, InvalidUtf8IsSpokenAsFarAsItIsText) {
   const Outcome run = say("--say \"$(printf 'good \\377\\376 morning')\"");
   EXPECT_EQ(run.exit_code, 0);

@@ -127,6 +127,15 @@ TEST(Text, AMegabyteIsCut) {
   EXPECT_EQ(mend(out, out.size()), out);  // Still valid.
 }
 
+TEST(Text, ARecordingIsNamedByItsTextAndLanguage) {
+  const auto name = [](std::string_view text, std::string_view language) {
+    return std::string(recording_name(text, language).c_str());
+  };
+  EXPECT_EQ(name("a", "en"), "af63dc4c8601ec8c-en");  // FNV-1a of "a".
+  EXPECT_NE(name("a", "en"), name("b", "en"));
+  EXPECT_EQ(name("a", "../x"), "af63dc4c8601ec8c-___x");  // Never leaves its folder.
+}
+
 TEST(Text, SentencesEndBeforeABlank) {
   const std::string_view text = "It costs 3.50 euro. Really? Yes.";
   EXPECT_EQ(next_sentence(text, 0), 20u);
