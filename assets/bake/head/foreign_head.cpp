@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include "assets/bake/face/fat.h"
 #include "assets/bake/head/anatomy.h"
@@ -138,37 +137,16 @@ class Builder {
         std::min(kIrisToEyes * placed_.eye_separation_m, 1.5f * character().facts.iris_diameter_m);
     for (std::size_t s = 0; s < 2; ++s) {
       const fat::Eye& eye = openings_.eye[s];
-      Mesh mesh = openings_.own_ball[s]
-                      ? mesh_of(finer(placed_.parts[openings_.ball[s]]),
-                                [&](Vec3 p) { return eyeball_uv(p, eye.center_m); })
-                      : ball_mesh(eye.center_m, eye.ball_radius_m);
+      Mesh mesh =
+          openings_.own_ball[s]
+              ? mesh_of(finer_iris(placed_.parts[openings_.ball[s]], eye.center_m, 0.55f * iris),
+                        [&](Vec3 p) { return eyeball_uv(p, eye.center_m); })
+              : ball_mesh(eye.center_m, eye.ball_radius_m);
       hang(mesh, s == 0 ? HanimJoint::l_eyeball_joint : HanimJoint::r_eyeball_joint);
       add(s == 0 ? "l_eye" : "r_eye", ObjectRole::eye,
           material(MaterialKind::eye, 0, paint_eye(iris, eye.ball_radius_m), 0.35f, 60.0f),
           std::move(mesh));
     }
-  }
-
-  // An eyeball of few triangles gets more, on the same facets: its pupil has to grow within them.
-  static LoosePart finer(LoosePart part) {
-    constexpr std::size_t kEnough = 900;
-    while (part.triangles.size() < kEnough) {
-      std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-      const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [found, fresh] =
-            middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(part.position_m.size()));
-        if (fresh) part.position_m.push_back(0.5f * (part.position_m[a] + part.position_m[b]));
-        return found->second;
-      };
-      Triangles split;
-      for (const auto& [a, b, c] : part.triangles) {
-        const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        for (const auto& t : Triangles{{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
-          split.push_back(t);
-      }
-      part.triangles = std::move(split);
-    }
-    return part;
   }
 
   static Mesh mesh_of(const LoosePart& part, const std::function<Vec2(Vec3)>& uv) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace caryatid::bake::foreign {
@@ -85,6 +86,65 @@ Mesh ball_mesh(Vec3 center, float radius) {
   for (std::uint32_t c = 0; c < kColumns; ++c)
     mesh.triangles.push_back({pupil, c, (c + 1) % kColumns});
   return mesh;
+}
+
+namespace {
+
+// Splits every edge that has a middle, so that neighbours stay joined: into two, three or four.
+void split_edges(const std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>& middles,
+                 Triangles& triangles) {
+  Triangles out;
+  for (auto t : triangles) {
+    std::array<std::uint32_t, 3> m{};  // Of the edges 01, 12, 20.
+    const auto find = [&] {
+      int count = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto at = middles.find(std::minmax(t[i], t[(i + 1) % 3]));
+        m[i] = at == middles.end() ? kNone : at->second;
+        count += m[i] != kNone;
+      }
+      return count;
+    };
+    const int count = find();
+    // Turned so that the first edge is split, and of two the first two.
+    while (count > 0 && count < 3 && (m[0] == kNone || (count == 2 && m[1] == kNone))) {
+      t = {t[1], t[2], t[0]};
+      find();
+    }
+    if (count == 0) out.push_back(t);
+    if (count == 1) out.insert(out.end(), {{t[0], m[0], t[2]}, {m[0], t[1], t[2]}});
+    if (count == 2)
+      out.insert(out.end(), {{m[0], t[1], m[1]}, {t[0], m[0], m[1]}, {t[0], m[1], t[2]}});
+    if (count == 3)
+      out.insert(out.end(), {{t[0], m[0], m[2]}, {t[1], m[1], m[0]}, {t[2], m[2], m[1]}, m});
+  }
+  triangles = std::move(out);
+}
+
+}  // namespace
+
+LoosePart finer_iris(LoosePart ball, Vec3 center, float radius_m) {
+  constexpr float kLongest_m = 0.001f;
+  constexpr int kPasses = 5;
+  const auto in_iris = [&](Vec3 p) {
+    return p.z > center.z && glm::length(Vec2(p - center)) < radius_m;
+  };
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    for (const auto& t : ball.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 a = ball.position_m[t[i]], b = ball.position_m[t[(i + 1) % 3]];
+        const Vec3 middle = 0.5f * (a + b);
+        if (glm::length(b - a) < kLongest_m || !(in_iris(a) || in_iris(b) || in_iris(middle)))
+          continue;
+        const auto [found, fresh] = middles.emplace(
+            std::minmax(t[i], t[(i + 1) % 3]), static_cast<std::uint32_t>(ball.position_m.size()));
+        if (fresh) ball.position_m.push_back(middle);
+      }
+    if (middles.empty()) break;
+    split_edges(middles, ball.triangles);
+  }
+  return ball;
 }
 
 Mesh teeth_mesh(const PlacedHead& head, bool upper) {

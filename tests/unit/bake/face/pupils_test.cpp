@@ -61,10 +61,9 @@ TEST(Pupils, GrowByTheFapInUnitsOfTheIris) {
         const IrisMeasure before = measure_iris(head, side);
         const IrisMeasure after = measure_iris(with_fap(head, 29 + side, value), side);
         const float wanted_m = value * head.facts.iris_diameter_m / 1024.0f;
-        // Between the vertices of the iris the pupil's edge follows chords; a coarse ball's long.
-        const float exact = head.name == "coarse" ? 0.25f : 0.15f;
+        // Between the vertices of the iris the pupil's edge follows chords.
         EXPECT_NEAR(after.pupil_diameter_m - before.pupil_diameter_m, wanted_m,
-                    exact * std::abs(wanted_m) + 1e-4f)
+                    0.15f * std::abs(wanted_m) + 1e-4f)
             << head.name << ": FAP " << 29 + side << " = " << value;
         EXPECT_NEAR(after.iris_diameter_m, before.iris_diameter_m, 5e-4f) << head.name;
       }

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "assets/bake/face/fat.h"
 #include "assets/bake/face/movement.h"
 #include "assets/bake/human/build.h"
 #include "assets/bake/mesh_io/mesh_io.h"
+#include "assets/bake/pack/writer.h"
+#include "core/agent/person.h"
 #include "core/emotion/profiles.h"
 #include "core/face/fap_fill.h"
 #include "core/face/fap_table.h"
@@ -132,6 +135,35 @@ TEST(ForeignHead, HeadsOfOthersMoveByTheSameAmounts) {
     ForeignHead f = build(heads / (std::string(stem) + ".obj"), stem);
     expect_exact_faps({std::move(f.character), std::move(f.head)});
   }
+}
+
+// The kiosk's own person, from the bytes of the pack, moves the head's points as the bake meant.
+TEST(ForeignHead, ItsPackLoadsAndMoves) {
+  ForeignHead f = build(kHeads + "coarse_head.obj", "coarse_head");
+  const std::vector<std::byte> bytes = write_pack(f.character);
+  const Result<pack::PackHeader> header = pack::read_header(bytes);
+  ASSERT_TRUE(header.ok());
+  std::vector<Vec4> image(header.value.image_bytes / sizeof(Vec4) + 1);
+  auto loader = std::make_unique<pack::Loader>();
+  ASSERT_TRUE(loader->begin(header.value, std::as_writable_bytes(std::span(image))).ok());
+  ASSERT_TRUE(loader->feed(std::span(bytes).subspan(sizeof(pack::PackHeader))).ok());
+  ASSERT_TRUE(loader->end().ok());
+  std::vector<std::byte> memory(agent::Person::arena_bytes(loader->view()));
+  Arena arena(memory);
+  auto person = std::make_unique<agent::Person>();
+  ASSERT_TRUE(person->start(loader->view(), arena).ok());
+  ASSERT_TRUE(person->refine(*loader).ok());
+  FapFrame neutral, raised;
+  person->show(neutral, body::BapFrame{}, Affine{}, 0.0f);
+  const Vec3 before = person->feature_point_m(8, 3);
+  raised.set(59, 200.0f);
+  person->show(raised, body::BapFrame{}, Affine{}, 0.0f);
+  const float rise_m = person->feature_point_m(8, 3).y - before.y;
+  EXPECT_NEAR(rise_m, 200.0f * f.character.facts.mouth_nose_m / 1024.0f, 1e-4f);
+  FapFrame nod;
+  nod.set(48, 30000.0f);  // 0.3 rad downwards: the nose falls and comes nearer.
+  person->show(nod, body::BapFrame{}, Affine{}, 0.0f);
+  EXPECT_LT(person->feature_point_m(9, 3).y, f.head.place_of(9, 3).y - 0.02f);
 }
 
 // --- The same stream gives the same expression ---
