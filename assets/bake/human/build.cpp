@@ -175,6 +175,7 @@ class Builder {
     const auto file = part.recipe.texture.empty() ? part.proxy.textures.front()
                                                   : part.proxy.folder / part.recipe.texture;
     LinearImage image = to_linear(read_image(file));
+    if (part.recipe.contrast != 1.0f) set_contrast(image, part.recipe.contrast);
     const std::string kind = part.proxy.name.substr(0, part.proxy.name.find('/'));
     // Brows and lashes are drawn black: they take the colour of the hair whole, softened a little.
     const bool hairs =

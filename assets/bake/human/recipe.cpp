@@ -69,13 +69,14 @@ SkinRecipe read_skin(const toml::table& t) {
 }
 
 PartRecipe read_part(const toml::table& t) {
-  expect_keys(t, {"proxy", "texture", "tint", "saturation", "softness", "gloss", "shininess",
-                  "grow_m", "drop_above_m", "upper_only"});
+  expect_keys(t, {"proxy", "texture", "tint", "saturation", "contrast", "softness", "gloss",
+                  "shininess", "grow_m", "drop_above_m", "upper_only"});
   PartRecipe p;
   p.proxy = text(t, "proxy");
   p.texture = text(t, "texture");
   p.tint = triple(t, "tint", p.tint);
   p.saturation = number(t, "saturation", p.saturation);
+  p.contrast = number(t, "contrast", p.contrast);
   p.softness = number(t, "softness", p.softness);
   p.gloss = number(t, "gloss", p.gloss);
   p.shininess = number(t, "shininess", p.shininess);

@@ -45,6 +45,7 @@ struct PartRecipe {
   std::string texture;  // Below the proxy's folder; empty: its first.
   Vec3 tint{1.0f};      // Linear; for brows and lashes their colour.
   float saturation = 1.0f;
+  float contrast = 1.0f;   // Below 1 light and dark draw together about their mean.
   float softness = 0.85f;  // Of brows and lashes: their greatest alpha.
   float gloss = 0.05f;
   float shininess = 16.0f;

@@ -50,6 +50,7 @@ Character small_character(const Character& full, std::uint32_t texture_side) {
     const bool teeth = p.group == 9 && p.index >= 8 && p.index <= 11;
     if (!dropped && !teeth) out.feature_points.push_back(p);
   }
+  for (pack::Material& m : out.materials) m.detail = pack::kNoTexture;  // Too fine to be seen.
   std::vector<bool> used(out.images.size(), false);
   for (const Object& o : out.objects)
     if (const std::uint16_t t = out.materials[o.material].texture; t != pack::kNoTexture)

@@ -133,6 +133,17 @@ LinearImage resize(const LinearImage& image, std::uint32_t width, std::uint32_t 
   return out;
 }
 
+void set_contrast(LinearImage& image, float contrast) {
+  const auto grey = [](const Vec4& t) { return 0.2126f * t.x + 0.7152f * t.y + 0.0722f * t.z; };
+  float sum = 0.0f, weight = 1e-6f;
+  for (const Vec4& t : image.texel) sum += t.w * grey(t), weight += t.w;
+  const float mean = std::max(sum / weight, 1e-4f);
+  for (Vec4& t : image.texel) {
+    const float gain = std::pow(std::max(grey(t), 1e-4f) / mean, contrast - 1.0f);
+    t = Vec4{gain * Vec3{t}, t.w};
+  }
+}
+
 void bleed_alpha(LinearImage& image, float below) {
   // Push-pull: averages of opaque texels on ever coarser grids fill the holes of the finer ones.
   std::vector<LinearImage> levels{image};

@@ -36,6 +36,9 @@ Vec4 sample_bicubic(const LinearImage& image, Vec2 uv);
 // Any size to any smaller one: box filter; colours weighted by alpha.
 LinearImage resize(const LinearImage& image, std::uint32_t width, std::uint32_t height);
 
+// Brightness of every texel becomes mean * (brightness / mean)^contrast; hues stay.
+void set_contrast(LinearImage& image, float contrast);
+
 // Gives texels with alpha less than `below` the colour of their nearest opaque neighbours, so that
 // filtering and mip levels do not pull a dark or bright rim into the edge of hair.
 void bleed_alpha(LinearImage& image, float below);

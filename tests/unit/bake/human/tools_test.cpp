@@ -123,6 +123,16 @@ TEST(Images, BleedingKeepsOpaqueTexelsAndAlpha) {
   EXPECT_EQ(image.at(3, 3).w, 0.0f);
 }
 
+TEST(Images, LessContrastDrawsBrightnessTogetherAndKeepsHues) {
+  LinearImage image(2, 1, Vec4{0.4f, 0.2f, 0.1f, 1});
+  image.at(1, 0) = {0.04f, 0.02f, 0.01f, 1};
+  set_contrast(image, 0.5f);
+  EXPECT_LT(image.at(0, 0).x, 0.4f);
+  EXPECT_GT(image.at(1, 0).x, 0.04f);
+  EXPECT_LT(image.at(1, 0).x, image.at(0, 0).x);
+  EXPECT_NEAR(image.at(1, 0).x, 2.0f * image.at(1, 0).y, 1e-5f);
+}
+
 TEST(Images, PngRoundTrips) {
   Image image;
   image.width = image.height = 2;
