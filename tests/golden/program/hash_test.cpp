@@ -17,8 +17,8 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0x0111c4864df7fc3fu, kPoseHash = 0xdad1c1a980742feeu,
-                        kDrawListHash = 0xa25b5a03f1f35946u;
+constexpr std::uint64_t kJoyHash = 0x686be379f16910a8u, kPoseHash = 0x18d89feb35823a52u,
+                        kDrawListHash = 0xa6d91ca2d0b57393u;
 
 class Hash : public testing::Test {
  protected:
