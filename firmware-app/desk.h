@@ -49,6 +49,8 @@ class Desk {
   // overlay.
   const scene::Box& stage(agent::SignboardInput frame, float dt_s);
   scene::Overlay overlay(agent::SignboardInput frame, float dt_s);
+  // Pictures are shown to her right.
+  bool mirrored() const { return signboard_.mirrored(); }
   // Plain byte of a byte of ssml().
   std::uint32_t plain_byte(std::uint32_t ssml_byte) const { return ssml_.plain_byte(ssml_byte); }
   const agent::Programme& programme() const { return guide_.programme(); }

@@ -87,7 +87,7 @@ void Kiosk::follow_programme(const Tick& tick) {
   const agent::Guidance& g = desk_.step(tick.dt_s, events_.span(), local_time(tick), speaking);
   if (g.pressed) agent_->press();
   if (g.feels) agent_->feel(g.feel);
-  if (g.gesture != body::GestureKind::none) agent_->gesture(g.gesture);
+  if (g.gesture != body::GestureKind::none) agent_->gesture(g.gesture, desk_.mirrored());
   agent_->sleep(g.asleep);
   speaker_.set_volume(g.volume);
   if (g.hushes) speaker_.stop();
@@ -99,7 +99,7 @@ void Kiosk::obey_marks(const SpeechFrame& spoken) {
   for (const auto& mark : spoken.marks)
     for (int k = 1; k <= static_cast<int>(body::GestureKind::beat); ++k)
       if (std::strcmp(mark.c_str(), body::gesture_name(static_cast<body::GestureKind>(k))) == 0)
-        agent_->gesture(static_cast<body::GestureKind>(k));
+        agent_->gesture(static_cast<body::GestureKind>(k), desk_.mirrored());
 }
 
 // The picture as the visitor sees it.

@@ -15,6 +15,7 @@ struct Intentions {
   face::FapFrame idle_face;                           // For face::MixJob::idle.
   body::BapFrame body;
   body::GestureKind gesture = body::GestureKind::none;  // That begins in this frame.
+  bool gesture_right = false;                           // A pointing one is to her right.
   bool covers_change = false;  // A blink or saccade: the moment to change a level of detail.
   bool pressed = false;        // A known button went down in this step.
   bool busy = false;           // Somebody is there: within kBusy_s of a press, or an emotion is up.
@@ -40,7 +41,10 @@ class Agent {
   // Who speaks looks at the listener: at least so much, 0..1, until it is told otherwise.
   void attend(float attention) { attend_ = attention; }
   // Begins with the next step.
-  void gesture(body::GestureKind kind) { gesture_ = kind; }
+  void gesture(body::GestureKind kind, bool right = false) {
+    gesture_ = kind;
+    out_.gesture_right = right;
+  }
   void sleep(bool asleep) { out_.asleep = asleep; }
 
   // Advances by dt_s (clamped to 0..0.25: a stalled board does not make the person jump). O(1).

@@ -41,8 +41,10 @@ Layout lay_out(const LayoutRequest& request) {
     out.person = {0, 0, w, out.card.y0};
   } else {
     const float card = kCardWidth * w * (request.large_text ? 1.1f : 1.0f);
-    out.card = {w - m - card, m, w - m, top_of_caption};
+    const float x = request.mirrored ? m : w - m - card;
+    out.card = {x, m, x + card, top_of_caption};
     out.person = {0, 0, out.card.x0, out.caption.y0};
+    if (request.mirrored) out.person = {out.card.x1, 0, w, out.caption.y0};
   }
   return out;
 }

@@ -9,7 +9,8 @@ struct LayoutRequest {
   float width = 800, height = 480;  // Of the picture as the visitor sees it, pixels.
   bool card = false;                // The page is shown.
   bool large_text = false;
-  bool captions = true;  // There are some now. Large text takes their room when there are none.
+  bool mirrored = false;  // Landscape: the card stands left, the person right.
+  bool captions = true;   // There are some now. Large text takes their room when there are none.
 };
 
 // Boxes in pixels. Landscape: the person left, the card right, captions below both. Portrait: the

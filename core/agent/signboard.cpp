@@ -61,12 +61,30 @@ Ink ink_of(const scene::Run& run, std::int32_t word_byte, bool speaking, const I
 
 }  // namespace
 
+Layout Signboard::layout(const SignboardInput& input) const {
+  return lay_out({.width = input.width,
+                  .height = input.height,
+                  .card = input.guidance->visited && !is_empty(input),
+                  .large_text = input.guidance->large_text,
+                  .mirrored = mirrored_,
+                  .captions = input.guidance->captions && silence_s_ <= kStay_s});
+}
+
+// Where she stands in the card's way it changes sides, if it is out of her way there.
+void Signboard::give_way(const SignboardInput& input) {
+  if (!layout_.card.overlaps(input.head)) return;
+  fade_ = {};
+  mirrored_ = !mirrored_;
+  const Layout other = layout(input);
+  if (other.card.overlaps(input.head))
+    mirrored_ = !mirrored_;
+  else
+    layout_ = other;
+}
+
 const Box& Signboard::stage(const SignboardInput& input, float dt_s) {
-  layout_ = lay_out({.width = input.width,
-                     .height = input.height,
-                     .card = input.guidance->visited,
-                     .large_text = input.guidance->large_text,
-                     .captions = input.guidance->captions && silence_s_ <= kStay_s});
+  if (!input.guidance->visited) mirrored_ = false;
+  layout_ = layout(input);
   const Box& b = layout_.person;
   const float targets[4] = {b.x0 / input.width, b.y0 / input.height, b.x1 / input.width,
                             b.y1 / input.height};
@@ -144,6 +162,12 @@ float Signboard::menu_row(const Choice& choice, const SignboardInput& input, con
   pen.line({&run, 1}, x0 + 0.5f * (side - em(width, style.size_px)),
            y0 + 0.5f * side + 0.36f * style.size_px, style);
   return row + 0.35f * text_px;
+}
+
+// A page of spoken words alone leaves the picture to her.
+bool Signboard::is_empty(const SignboardInput& input) const {
+  const Page& page = input.programme->pages[input.guidance->page];
+  return page.title == kNone && page.body == kNone && page.choice_count == 0 && !has_picture(input);
 }
 
 bool Signboard::has_picture(const SignboardInput& input) const {
@@ -236,10 +260,7 @@ Signboard::CardFit Signboard::fit_card(const SignboardInput& input, float* out_h
 
 void Signboard::draw_card(const SignboardInput& input) {
   card_ = {};
-  const Page& page = input.programme->pages[input.guidance->page];
-  const bool empty =
-      page.title == kNone && page.body == kNone && page.choice_count == 0 && !has_picture(input);
-  if (empty || fade_.value < 0.02f || layout_.card.empty()) return;
+  if (fade_.value < 0.02f || layout_.card.empty()) return;
   if (layout_.card.overlaps(input.head)) return;  // She is on her way: not in front of her face.
   float height = 0.0f;
   const CardFit fit = fit_card(input, &height);
@@ -297,11 +318,9 @@ scene::Overlay Signboard::overlay(const SignboardInput& input, float dt_s) {
   const Guidance& g = *input.guidance;
   const float dt = std::clamp(dt_s, 0.0f, 0.1f);
   silence_s_ = input.speaking ? 0.0f : silence_s_ + dt;
-  // She walks through where the card is: it is gone at once, and comes when she has passed.
+  give_way(input);
   const bool passing = layout_.card.overlaps(input.head);
-  if (passing) fade_ = {};
   fade_.step(g.visited && !passing ? 1.0f : 0.0f, kFadeRate, dt);
-  if (std::abs(fade_.value - 1.0f) < 0.002f) fade_.value = 1.0f;
   dim_.step(g.asleep ? kAsleep : 0.0f, kDimRate, dt);
   // What the quads depend on; while something moves they are made anew in each frame.
   const std::int32_t facts[] = {g.page,
@@ -321,6 +340,7 @@ scene::Overlay Signboard::overlay(const SignboardInput& input, float dt_s) {
                                 static_cast<std::int32_t>(dim_.value * 255.0f),
                                 static_cast<std::int32_t>(input.width),
                                 static_cast<std::int32_t>(input.height),
+                                static_cast<std::int32_t>(layout_.card.x0),
                                 static_cast<std::int32_t>(layout_.card.y1),
                                 layout_.card.overlaps(input.head),
                                 layout_.caption.overlaps(input.head)};

@@ -35,6 +35,8 @@ class Signboard {
   // What to draw, rebuilt when something changed. O(letters) then, O(1) else.
   scene::Overlay overlay(const SignboardInput& input, float dt_s);
 
+  // The card stands left of her, as the visitor sees it.
+  bool mirrored() const { return mirrored_; }
   // Where card and captions were drawn last; empty when they were not.
   const scene::Box& card() const { return card_; }
   const scene::Box& caption() const { return caption_; }
@@ -44,6 +46,8 @@ class Signboard {
   struct Key;
   static constexpr float kStay_s = 2.5f;  // Captions after the last word.
 
+  Layout layout(const SignboardInput& input) const;
+  void give_way(const SignboardInput& input);
   void draw_card(const SignboardInput& input);
   struct CardFit {
     scene::Box inside;
@@ -59,6 +63,7 @@ class Signboard {
                  float text_px, bool draw);
   float picture(const SignboardInput& input, const scene::Box& at, bool draw);
   bool has_picture(const SignboardInput& input) const;
+  bool is_empty(const SignboardInput& input) const;
   void draw_captions(const SignboardInput& input);
   void darken(const SignboardInput& input);
   bool expand_text(std::uint16_t text, const SignboardInput& input);
@@ -71,6 +76,7 @@ class Signboard {
   Follower dim_;
   float silence_s_ = 1e6f;
   bool placed_ = false;
+  bool mirrored_ = false;
   std::uint64_t key_ = 0;
   std::uint32_t version_ = 0;
   Utterable text_;  // Scratch.

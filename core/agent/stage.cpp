@@ -156,10 +156,11 @@ void Stage::gesture(const Intentions& will) {
   const bool faces = std::abs(wrapped(walker_.heading_rad())) < 0.6f;
   const bool points = will.gesture == body::GestureKind::point;
   if (will.gesture != body::GestureKind::none && (faces || !points)) {
-    const Vec3 from{walker_.place().x, 0.0f, walker_.place().y};
+    Vec3 target = setup_.points_at_m;
+    if (will.gesture_right) target.x = -target.x;
     gestures_.start({.kind = will.gesture,
-                     .left = points && setup_.points_at_m.x > 0.0f,
-                     .target_m = from + setup_.points_at_m});
+                     .left = points && target.x > 0.0f,
+                     .target_m = target + Vec3{walker_.place().x, 0.0f, walker_.place().y}});
   }
   if (will.emotion == gestured_) return;
   gestured_ = will.emotion;

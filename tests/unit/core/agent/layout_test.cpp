@@ -30,6 +30,14 @@ TEST(Layout, NothingOverlapsAndAllIsOnThePicture) {
     }
 }
 
+TEST(Layout, TheCardCanStandOnTheOtherSide) {
+  const Layout right = lay_out({800, 480, true, false});
+  const Layout left = lay_out({800, 480, true, false, true});
+  EXPECT_LT(left.card.x1, right.card.x0);
+  EXPECT_GE(left.person.x0, left.card.x1);
+  EXPECT_FLOAT_EQ(left.person.width(), right.person.width());
+}
+
 TEST(Layout, LargeTextIsLarger) {
   const Layout small = lay_out({800, 480, true, false}), large = lay_out({800, 480, true, true});
   EXPECT_GE(large.text_px, 1.3f * small.text_px);

@@ -113,6 +113,29 @@ TEST_F(SignboardTest, TheHeadIsNeverCovered) {
     }
 }
 
+// She stands where the card would be: it comes on the other side, and stays there.
+TEST_F(SignboardTest, TheCardChangesSidesForHer) {
+  press(SmallProgramme::kGoMaps);
+  const PictureSize pictures[] = {{400, 300}};
+  input_.pictures = pictures;
+  input_.head = {560, 100, 700, 300};
+  (void)run(0.5f, true, 0);
+  EXPECT_TRUE(board_->mirrored());
+  EXPECT_LT(board_->card().x1, 480.0f);
+  EXPECT_FALSE(board_->card().empty());
+  input_.head = {600, 100, 740, 300};
+  (void)run(0.5f, true, 0);
+  EXPECT_TRUE(board_->mirrored());
+}
+
+// The welcome page of this programme has nothing to show: she keeps the whole picture.
+TEST_F(SignboardTest, APageWithoutContentTakesNoRoom) {
+  press(SmallProgramme::kLarge);
+  (void)run(0.5f, false);
+  EXPECT_TRUE(board_->card().empty());
+  EXPECT_EQ(board_->stage(input_, 0.03f), (Box{0, 0, 800, 480}));
+}
+
 TEST_F(SignboardTest, ThePictureKeepsItsProportions) {
   press(SmallProgramme::kGoMaps);
   const PictureSize pictures[] = {{400, 100}};
