@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "assets/bake/anthropometry/measures.h"
+#include "assets/bake/body/bdp.h"
 #include "assets/bake/face/fat.h"
 #include "assets/bake/gait/soles.h"
 #include "assets/bake/head/foreign_head.h"
@@ -24,6 +25,7 @@ namespace {
 
 struct BakeArgs {
   std::string recipe, out, base, points, ranges;
+  std::string bdp, bdp_profile = "calibration";
   std::string anthropometry;  // Where the measurements go; empty: printed.
   bool licences = false, small = false;
   CLI::Option* measured = nullptr;
@@ -117,7 +119,18 @@ void write_pack(const bake::Character& character, const bake::PackOptions& optio
   print_report(report);
 }
 
+// Predictable: the sent body and nothing of ours.
+void bake_sent_body(const BakeArgs& a) {
+  const std::string name = std::filesystem::path(a.bdp).stem().string();
+  bake::Character character =
+      bake::character_of(bake::read_bdp(bake::read_file(a.bdp), a.bdp), name);
+  bake::add_sole_points(character);
+  bake::bake_occlusion(character);
+  write_pack(character, {}, a.out);
+}
+
 void bake_character(const BakeArgs& a) {
+  if (!a.bdp.empty() && a.bdp_profile == "predictable") return bake_sent_body(a);
   Progress progress;
   progress.step("read the base human");
   const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
@@ -127,6 +140,11 @@ void bake_character(const BakeArgs& a) {
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
   progress.step("build the person");
   bake::Character character = bake::build_character(recipe, base, places);
+  if (!a.bdp.empty()) {
+    // Read even where the profile ignores it: a bad file is refused under every profile.
+    const bake::BodyDefinition sent = bake::read_bdp(bake::read_file(a.bdp), a.bdp);
+    if (a.bdp_profile == "calibration") bake::calibrate_character(sent, &character);
+  }
   bake::add_sole_points(character);
   print_facts(character);
   if (a.licences) print_licences(character);
@@ -265,6 +283,13 @@ void add_bake(CLI::App& app) {
   character->add_flag("--licences", a->licences, "Print the licence of every source");
   character->add_flag("--small", a->small,
                       "Head and shoulders without refinements: the agent's built-in face");
+  character->add_option("--bdp", a->bdp,
+                        "SENT.wrl: a sent body definition, an H-Anim humanoid in VRML");
+  character
+      ->add_option("--bdp-profile", a->bdp_profile,
+                   "What becomes of it: simple (ignored), calibration (the person takes on its "
+                   "joint centres; the default), predictable (it replaces the person)")
+      ->check(CLI::IsMember({"simple", "calibration", "predictable"}));
   add_anthropometry(character, a.get());
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");

@@ -1,5 +1,6 @@
-// Captured motion of others (BVH, CSV, BAP): any bytes end in frames or one refusal that names the
-// line, and whatever was read poses a body of finite size and can be analysed.
+// Captured motion of others (BVH, CSV, BAP) and sent bodies (BDP): any bytes end in frames or one
+// refusal that names the line, and whatever was read poses a body of finite size and can be
+// analysed.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/bake/body/bdp.h"
 #include "assets/bake/gait/analyse.h"
 #include "core/body/helper_joints.h"
 #include "core/body/joint_limits.h"
@@ -59,6 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (data[0] == 'v') analyse(bake::motion_of(bake::read_bvh(text, "x.bvh")));
     if (data[0] == 'c') analyse(bake::motion_of_csv(text, "x.csv"));
     if (data[0] == 'b') pose(text);
+    if (data[0] == 'd') (void)bake::read_bdp(text, "x.wrl");
   } catch (const std::runtime_error& refusal) {
     require(std::strchr(refusal.what(), '\n') == nullptr);
   }
