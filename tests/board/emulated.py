@@ -10,12 +10,14 @@ Steps, of which all are run unless --steps names some (comma separated):
   restart    killed, stopped, without page flips, after a GPU reset: she comes back
   watchdog   PID 1 stops: the hardware watchdog resets the board
   soak       minutes of life: memory, late frames, allocations, reaction times
+  power      the power is cut ten times while the kiosk writes its state
 """
 
 import argparse
 import glob
 import json
 import os
+import random
 import re
 import shutil
 import signal
@@ -35,7 +37,7 @@ VIEW = ["--view", "head", "--lod", "5000"]
 # Emulated, llvmpipe draws a few frames a second; what is compared is not how fast but what.
 TARGET_FPS = 5
 METRICS = "/run/caryatid/metrics.jsonl"
-STEPS = ["picture", "gpio", "keyboard", "restart", "watchdog", "soak"]
+STEPS = ["picture", "gpio", "keyboard", "restart", "watchdog", "soak", "power"]
 # A machine that is shared stretches every wait by this.
 PATIENCE = float(os.environ.get("CARYATID_BOARD_PATIENCE", "1"))
 
@@ -296,6 +298,52 @@ class Test:
         check(len(presses) >= 2, f"{len(presses)} presses were answered")
 
 
+class PowerCuts:
+    """A board of its own, with a small init that lets the kiosk write its state all the time."""
+
+    CUTS = 10
+
+    def __init__(self, options, disk):
+        self.options, self.disk = options, disk
+        self.random = random.Random(1)
+
+    def run(self):
+        boot, known = os.path.join(self.options.tree, "boot"), 0
+        for cut in range(self.CUTS + 1):
+            out = os.path.join(self.options.out, "power")
+            os.makedirs(out, exist_ok=True)
+            with Machine(out, os.path.join(boot, "vmlinuz"), os.path.join(boot, "initramfs-small"),
+                         self.disk, (WIDTH, HEIGHT)) as board:
+                found = self.starts(board, "found", 1)[0]
+                check(found >= known, f"power-on {cut + 1}: the state knows of {found} starts; "
+                                      f"{known} were safe before the cut")
+                known = self.starts(board, "wrote", 2)[-1]
+                # Somewhere in the next start, its writing, or its end.
+                time.sleep(self.random.uniform(0.0, 2.0))
+                known = max(known, *self.told(board, "wrote"))
+        check(True, f"{self.CUTS} cuts of power, and the state was whole each time")
+
+    @staticmethod
+    def told(board, word):
+        """Counts of starts on lines that begin with `word`; -1 for a state that is not whole."""
+        lines = re.findall(rf"^{word} (.*?)\r?$", board.console(), re.M)
+        counts = []
+        for line in lines:
+            match = re.search(r"caryatid-state 1 starts (\d+) .*crc [0-9a-f]{8}", line)
+            # Nothing at all: the first power-on of a new board.
+            counts.append(int(match.group(1)) if match else 0 if not line.strip() else -1)
+        return counts
+
+    def starts(self, board, word, least):
+        def enough():
+            counts = self.told(board, word)
+            return counts if len(counts) >= least else None
+        counts = wait_for(f"'{word}' on the console", 300 * PATIENCE, enough, 0.2)
+        if -1 in counts:
+            check(False, f"every state told as {word!r} is whole")
+        return counts
+
+
 def make_payload(options):
     """What the package holds, and the little that makes this board a test's."""
     payload = options.payload
@@ -309,6 +357,8 @@ def make_payload(options):
     link = os.path.join(wants, "caryatid.service")
     if not os.path.lexists(link):
         os.symlink("/lib/systemd/system/caryatid.service", link)
+    shutil.copy(os.path.join(os.path.dirname(__file__), "small_init.sh"),
+                os.path.join(payload, "etc/small-init"))
     config = os.path.join(payload, "etc/caryatid")
     os.makedirs(config, exist_ok=True)
     shutil.copy(os.path.join(os.path.dirname(__file__), "kiosk.toml"), config)
@@ -347,14 +397,20 @@ def main():
     began = time.monotonic()
     warm = os.path.isdir(os.path.join(options.shaders, "caryatid"))
     print(f"power on; compiled shaders: {'kept from another run' if warm else 'none'}", flush=True)
+    steps = options.steps.split(",")
     try:
-        with test.boot(disk) as board:
-            test.board = board
-            board.shell_ready(300 * PATIENCE)
-            for step in options.steps.split(","):
-                print(f"{step}  ({time.monotonic() - began:.0f} s)", flush=True)
-                getattr(test, step)()
-            board.run("sync")
+        if set(steps) != {"power"}:
+            with test.boot(disk) as board:
+                test.board = board
+                board.shell_ready(300 * PATIENCE)
+                for step in steps:
+                    if step != "power":
+                        print(f"{step}  ({time.monotonic() - began:.0f} s)", flush=True)
+                        getattr(test, step)()
+                board.run("sync")
+        if "power" in steps:
+            print(f"power  ({time.monotonic() - began:.0f} s)", flush=True)
+            PowerCuts(options, disk).run()
     except (Failure, Timeout) as error:
         print(f"emulated board: {error}; see {options.out}", flush=True)
         return 1
