@@ -32,8 +32,8 @@ import image  # noqa: E402
 import pictures  # noqa: E402
 from machine import Machine, Timeout, wait_for  # noqa: E402
 
-WIDTH, HEIGHT = 480, 320
-VIEW = ["--view", "head", "--lod", "5000"]
+WIDTH, HEIGHT = 320, 240
+VIEW = ["--view", "head", "--lod", "2500"]
 # Emulated, llvmpipe draws a few frames a second; what is compared is not how fast but what.
 TARGET_FPS = 5
 METRICS = "/run/caryatid/metrics.jsonl"
@@ -175,7 +175,7 @@ class Test:
                           lambda: self.journal("person on the screen"), 2)
         say("the person stood %.1f s after power-on" % person[0])
         # Her finest textures come while she is already there.
-        wait_for("thirty frames", 300 * PATIENCE, lambda: self.frame_count() > 30, 3)
+        wait_for("twelve frames", 300 * PATIENCE, lambda: self.frame_count() > 12, 3)
         shown = [self.dump(f"first_{n}").blocks() for n in range(3)]
         near = min(self.host.distance(b, "calm") for b in shown)
         face = min(self.host.distance(b, "builtin") for b in shown)
