@@ -46,9 +46,10 @@ ExecStart=
 ExecStart=/usr/bin/caryatid --config /etc/caryatid/kiosk.toml \
 --pack /usr/share/caryatid/woman.pack --display drm {" ".join(VIEW)} \
 --target-fps {TARGET_FPS} --metrics {METRICS} --test-faults
-# Compiling shaders for llvmpipe by emulation takes minutes when nothing is cached.
+# Compiling shaders for llvmpipe by emulation takes minutes where nothing is cached, with the first
+# picture and again when her finest textures have come.
 TimeoutStartSec=1800
-WatchdogSec=60
+WatchdogSec=900
 """
 
 
@@ -97,9 +98,9 @@ class HostPictures:
         frames = frames if mood in ("calm", "builtin") else frames[3:]
         return [pictures.read_png(f).blocks() for f in frames]
 
-    def distance(self, blocks, mood):
-        """To the most similar moment of that mood."""
-        return min(pictures.distance(blocks, b) for b in self.blocks(mood))
+    def distance(self, views, mood):
+        """From a picture's views to the most similar moment of that mood."""
+        return min(pictures.distance(v, b) for v in views for b in self.blocks(mood))
 
 
 class Test:
@@ -176,7 +177,7 @@ class Test:
         say("the person stood %.1f s after power-on" % person[0])
         # Her finest textures come while she is already there.
         wait_for("twelve frames", 300 * PATIENCE, lambda: self.frame_count() > 12, 3)
-        shown = [self.dump(f"first_{n}").blocks() for n in range(3)]
+        shown = [self.dump(f"first_{n}").views() for n in range(3)]
         near = min(self.host.distance(b, "calm") for b in shown)
         face = min(self.host.distance(b, "builtin") for b in shown)
         check(near < 4.0 and near < 0.7 * face,
@@ -186,23 +187,19 @@ class Test:
     def frame_count(self):
         return int(self.board.run(f"wc -l < {METRICS} || echo 0").split()[-1])
 
-    def moods(self, blocks, *names):
-        """Distances to this PC's pictures of these moods."""
-        return {name: round(self.host.distance(blocks, name), 2) for name in names}
-
     def gpio(self):
         self.wait_calm()
-        before = self.dump("before_press").blocks()
+        before = self.dump("before_press").views()
         self.board.press_button()
         self.wait_feeling("joy")
         time.sleep(2)
-        after = self.dump("after_press").blocks()
+        after = self.dump("after_press").views()
         self.expect_mood(before, "calm", "joy")
         self.expect_mood(after, "joy", "calm")
         self.expect_reaction()
 
-    def expect_mood(self, blocks, mood, other):
-        apart = self.moods(blocks, mood, other)
+    def expect_mood(self, views, mood, other):
+        apart = {name: round(self.host.distance(views, name), 2) for name in (mood, other)}
         check(apart[mood] < apart[other], f"the picture shows {mood}: {apart}")
 
     def expect_reaction(self):
@@ -216,7 +213,7 @@ class Test:
         self.board.type_key("s")
         self.wait_feeling("sadness")
         time.sleep(2)
-        self.expect_mood(self.dump("key_sadness").blocks(), "sadness", "calm")
+        self.expect_mood(self.dump("key_sadness").views(), "sadness", "calm")
         since = self.now_s()
         self.board.unplug_keyboard()
         gone = wait_for("word of the lost keyboard", 30 * PATIENCE,
@@ -232,7 +229,15 @@ class Test:
         self.wait_feeling("surprise")
         check(True, "a key works again after the keyboard was unplugged and plugged in")
 
+    def shorten_watchdog(self):
+        """All that is drawn has been compiled by now."""
+        self.board.run("mkdir -p /run/systemd/system/caryatid.service.d; "
+                       "printf '[Service]\\nWatchdogSec=40\\n' "
+                       "> /run/systemd/system/caryatid.service.d/zz-watchdog.conf; "
+                       "systemctl daemon-reload")
+
     def restart(self):
+        self.shorten_watchdog()
         self.hard_kill()
         self.expect_watchdog("SIGSTOP: the service's watchdog restarts it", "STOP")
         self.expect_watchdog("page flips stop: the service's watchdog restarts it", "USR1")
@@ -244,9 +249,8 @@ class Test:
         wait_for("frames after the GPU reset", 120 * PATIENCE,
                  lambda: self.metrics()[0]["time_s"] > at + 3.0, 2)
         check(self.unit("MainPID") == process, "a GPU reset: the same process draws on")
-        blocks = self.dump("after_gpu_reset").blocks()
-        near = self.host.distance(blocks, "calm")
-        check(near < 3.0, f"and she looks as before, {near:.2f} apart")
+        near = self.host.distance(self.dump("after_gpu_reset").views(), "calm")
+        check(near < 4.0, f"and she looks as before, {near:.2f} apart")
 
     def hard_kill(self):
         since = self.now_s()

@@ -10,20 +10,23 @@ class Picture:
     def __init__(self, width, height, rgb):
         self.width, self.height, self.rgb = width, height, rgb
 
-    def blocks(self, size=8):
-        """Mean colours of squares of `size` pixels: what is seen, without how edges are sampled."""
+    def blocks(self, across=0, down=0, size=8, margin=8):
+        """Mean colours of squares of `size` pixels: what is seen, without how edges are sampled.
+        The picture without its margin, taken from `across` and `down` pixels beside the middle."""
         sums = []
-        for top in range(0, self.height - size + 1, size):
+        for top in range(margin + down, self.height - margin + down - size + 1, size):
             rows = [self.rgb[3 * self.width * y:3 * self.width * (y + 1)]
                     for y in range(top, top + size)]
-            for left in range(0, self.width - size + 1, size):
+            for left in range(margin + across, self.width - margin + across - size + 1, size):
                 for channel in range(3):
                     first, last = 3 * left + channel, 3 * (left + size) + channel
                     sums.append(sum(sum(row[first:last:3]) for row in rows) / (size * size))
         return sums
 
-    def is_black(self):
-        return max(self.rgb) < 24
+    def views(self):
+        """The blocks as they would be if she swayed a little to any side."""
+        return [self.blocks(across, down) for across in (-8, -5, -2, 0, 2, 5, 8)
+                for down in (-4, -2, 0, 2, 4)]
 
     def write_png(self, path):
         stride = 3 * self.width
