@@ -180,7 +180,7 @@ class Test:
         shown = [self.dump(f"first_{n}").views() for n in range(3)]
         near = min(self.host.distance(b, "calm") for b in shown)
         face = min(self.host.distance(b, "builtin") for b in shown)
-        check(near < 4.0 and near < 0.7 * face,
+        check(near < 3.0 and near < 0.6 * face,
               f"the screen shows her as this PC draws her: {near:.2f} of 255 apart, the built-in "
               f"face {face:.2f}")
 

@@ -25,8 +25,8 @@ class Picture:
 
     def views(self):
         """The blocks as they would be if she swayed a little to any side."""
-        return [self.blocks(across, down) for across in (-8, -5, -2, 0, 2, 5, 8)
-                for down in (-4, -2, 0, 2, 4)]
+        return [self.blocks(across, down) for across in (-6, -3, 0, 3, 6)
+                for down in (-3, 0, 3)]
 
     def write_png(self, path):
         stride = 3 * self.width
