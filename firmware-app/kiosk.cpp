@@ -375,7 +375,8 @@ void Kiosk::aim_camera(float dt_s) {
   if (stage_ && options_.view == "auto")
     framing =
         scene::blend(scene::framing(scene::View::body, subject_), framing, stage_->closeness());
-  const agent::SignboardInput seen = screen();
+  agent::SignboardInput seen = screen();
+  if (stage_ && options_.view == "auto") seen.closeness = stage_->closeness();
   const scene::Box& box = desk_.stage(seen, dt_s);
   list_.camera = scene::make_camera(
       framing, picture_aspect(), options_.rotate_degrees,

@@ -39,6 +39,7 @@ constexpr float kLineHeight = 1.32f, kAscent = 0.98f;           // Of the letter
 constexpr float kTitle = 1.55f, kPadding = 1.0f, kGap = 0.55f;  // Of the card's letters.
 // The least height of a picture, of the letters' size; the most width beside text, of the card's.
 constexpr float kLeastPicture = 4.5f, kColumn = 0.40f;
+constexpr float kUsual = 0.69f;  // Letters of a card that is full, of those that were asked for.
 
 float em(std::int32_t width, float size_px) {
   return static_cast<float>(width) * size_px / pack::kUnitsPerEm;
@@ -85,9 +86,12 @@ void Signboard::give_way(const SignboardInput& input) {
 const Box& Signboard::stage(const SignboardInput& input, float dt_s) {
   if (!input.guidance->visited) mirrored_ = false;
   layout_ = layout(input);
+  // From afar she has the whole picture to walk in.
   const Box& b = layout_.person;
-  const float targets[4] = {b.x0 / input.width, b.y0 / input.height, b.x1 / input.width,
-                            b.y1 / input.height};
+  const float near = std::clamp(input.closeness, 0.0f, 1.0f);
+  const float targets[4] = {near * b.x0 / input.width, near * b.y0 / input.height,
+                            1.0f + near * (b.x1 / input.width - 1.0f),
+                            1.0f + near * (b.y1 / input.height - 1.0f)};
   for (int i = 0; i < 4; ++i) {
     if (!placed_) edge_[i].value = targets[i];
     edge_[i].step(targets[i], kStageRate, std::clamp(dt_s, 0.0f, 0.1f));
@@ -241,20 +245,23 @@ void Signboard::darken(const SignboardInput& input) {
            Ink{0, 0, 0, 255}.faded(dim_.value));
 }
 
-// The largest letters with which all fits; the visitor who wants them large goes without the body,
-// which is spoken anyway.
+// The largest letters with which all fits. Where not even letters of the usual size do, the page
+// goes without its body, which a button reads aloud.
 Signboard::CardFit Signboard::fit_card(const SignboardInput& input, float* out_height) {
-  CardFit fit;
-  fit.text_px = layout_.text_px;
-  for (int i = 0; i < 16; ++i) {
-    fit.inside = layout_.card.inset(kPadding * fit.text_px);
-    for (const bool body : {true, false}) {
-      fit.body = body || !input.guidance->large_text;
+  const float usual = kUsual * layout_.text_px;
+  for (const bool body : {true, false}) {
+    CardFit fit;
+    fit.body = body;
+    for (fit.text_px = layout_.text_px; fit.text_px > usual; fit.text_px *= 0.96f) {
+      fit.inside = layout_.card.inset(kPadding * fit.text_px);
       *out_height = fill_card(input, fit, false);
       if (*out_height <= fit.inside.height()) return fit;
     }
-    fit.text_px *= 0.94f;
   }
+  CardFit fit;
+  fit.text_px = usual;
+  fit.inside = layout_.card.inset(kPadding * usual);
+  *out_height = fill_card(input, fit, false);
   return fit;
 }
 

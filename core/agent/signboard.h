@@ -21,6 +21,7 @@ struct SignboardInput {
   Moment now;
   float width = 800, height = 480;  // Of the picture as the visitor sees it, pixels.
   scene::Box head;                  // Where the head is on it; never covered.
+  float closeness = 1.0f;  // Of the camera: 0 sees the whole body and her walk, 1 her head.
   std::span<const PictureSize> pictures;
   std::uint32_t turn_degrees = 0;
 };

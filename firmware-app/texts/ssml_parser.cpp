@@ -29,6 +29,10 @@ bool is_name(char c) {
 Tag read_tag(std::string_view inside) {
   Tag tag;
   std::size_t at = 0;
+  tag.closes = inside.starts_with('/');
+  if (tag.closes) inside.remove_prefix(1);
+  tag.empty = inside.ends_with('/');
+  if (tag.empty) inside.remove_suffix(1);
   const auto skip = [&] {
     while (at < inside.size() && is_blank(inside[at])) ++at;
   };
@@ -37,14 +41,6 @@ Tag read_tag(std::string_view inside) {
     while (at < inside.size() && is_name(inside[at])) ++at;
     return std::string(inside.substr(first, at - first));
   };
-  if (!inside.empty() && inside[0] == '/') {
-    tag.closes = true;
-    ++at;
-  }
-  if (!inside.empty() && inside.back() == '/') {
-    tag.empty = true;
-    inside.remove_suffix(1);
-  }
   tag.name = name();
   for (skip(); at < inside.size(); skip()) {
     const std::string key = name();

@@ -58,7 +58,7 @@ void walk(const caryatid::agent::Programme& programme) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace caryatid;
-  if (size < 1 || size > (1u << 16)) return 0;
+  if (size < 5 || size > (1u << 16)) return 0;
   std::vector<std::uint32_t> words((size - 1) / 4);
   const auto block = std::as_writable_bytes(std::span(words));
   std::memcpy(block.data(), data + 1, block.size());

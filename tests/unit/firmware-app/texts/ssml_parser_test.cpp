@@ -74,6 +74,12 @@ TEST_F(SsmlParser, EntitiesAndLoneSigns) {
   EXPECT_EQ(parse("R&D; x").plain, "R&D; x");
 }
 
+TEST_F(SsmlParser, EmptyTagsAreUnknownTags) {
+  for (const char* text : {"a</>b", "a</ >b", "a</x/>b", "a</></>b"})
+    EXPECT_EQ(parse(text).plain, "ab") << text;
+  EXPECT_EQ(parse("a<>b").plain, "a<>b");
+}
+
 TEST_F(SsmlParser, TagsThatDoNotPairAreClosed) {
   const ParsedText t = parse("<emphasis>for ever");
   EXPECT_EQ(t.cues.back().kind, CueKind::emphasis);
