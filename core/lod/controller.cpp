@@ -18,6 +18,9 @@ constexpr float kRefineGain = 1.08f;    // Less is not worth a change.
 constexpr float kReshare = 0.25f;       // An object's share must be this far off.
 constexpr float kWaitMin_s = 2.0f, kWaitMax_s = 64.0f, kMistake_s = 30.0f, kForgive_s = 120.0f;
 constexpr float kTryEvery_s = 0.25f;
+// Without a fence the GPU is known by bounds alone, its pixels and triangles not apart: a better
+// rung needs room for that, and nothing grows soon after a late frame, the first of a step perhaps.
+constexpr float kBlindShare = 0.95f, kBlindRungShare = 0.8f, kBlindWait_s = 2.0f;
 constexpr float kAhead_s = 0.5f;    // What a hidden and morphed change takes.
 constexpr float kTrend_s = 0.15f;   // Time constant of the camera's trend.
 constexpr float kThrottle = 1.43f;  // What a hot board is about to cost more: clocks fall by 30 %.
@@ -103,6 +106,7 @@ void BudgetController::learn(const FrameSample& sample) {
   thermal_ = sample.thermal;
   other_load_percent_ = sample.other_load_percent;
   if (sample.cpu_us == FrameSample::kUnknown) return;
+  blind_ = sample.gpu_us == FrameSample::kUnknown;
   const bool evidence = evidence_s_ > 0.0f;
   const auto cpu_us = static_cast<float>(sample.cpu_us);
   // A step of one stage makes one of the other likely: a hot board slows both.
@@ -272,7 +276,8 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   // One change a second unless something has happened: a step, a moving camera, a frame beyond
   // hope.
   const bool stepped = evidence_s_ > 0.0f && since_late_s_ < 0.5f;
-  const bool eventful = stepped || approach_ > 1.01f || predicted > limit.deadline_us;
+  const bool missing = predicted > limit.deadline_us && since_late_s_ < 0.5f;
+  const bool eventful = stepped || approach_ > 1.01f || missing;
   if (since_change_s_ < 1.0f && !eventful) return false;
   Needs storage;
   const std::span<const ObjectNeed> capped = cap(needs, 0.0f, storage);
@@ -324,16 +329,19 @@ bool BudgetController::refine(const SceneNeeds& needs) {
   if (since_change_s_ < wait_s_ || since_try_s_ < kTryEvery_s || thermal_ != ThermalLevel::normal ||
       late_)
     return false;
+  if (blind_ && since_late_s_ < kBlindWait_s) return false;
   since_try_s_ = 0.0f;
   const std::size_t count = count_of(needs);
   const std::span<const std::uint32_t> now = std::span(decision_.triangles).first(count);
   const Limits limit = limits(work_of(now, rung_, needs));
-  const float limit_us = kRefineTo * limit.plan_us;
+  const float limit_us = kRefineTo * (blind_ ? kBlindShare : 1.0f) * limit.plan_us;
   Needs storage;
   const std::span<const ObjectNeed> capped = cap(needs, kRefineGrowth, storage);
   Change change = Change::refine;
   Plan plan;
-  if (rung_ > 0) plan = plan_at(rung_ - 1, limit_us, kComfortBetter, needs, capped);
+  if (rung_ > 0)
+    plan = plan_at(rung_ - 1, (blind_ ? kBlindRungShare : 1.0f) * limit_us, kComfortBetter, needs,
+                   capped);
   // Pixels come at once, triangles go slowly: they must be gone before the better rung comes.
   if (plan.comfortable && predict(work_of(now, rung_ - 1, needs)) > limit.reduce_us) {
     plan.rung = rung_;

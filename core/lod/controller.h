@@ -94,7 +94,7 @@ class BudgetController {
   float cool_cpu_ = 1, cool_gpu_ = 1;  // Slowdown when the board was last cool.
   ThermalLevel thermal_ = ThermalLevel::normal;
   std::uint8_t other_load_percent_ = 0;
-  bool late_ = false, started_ = false, bulk_ = false, saving_ = false;
+  bool late_ = false, started_ = false, bulk_ = false, saving_ = false, blind_ = false;
   std::uint64_t last_time_us_ = 0;
   // Seconds, saturating far beyond every threshold.
   float since_change_s_ = 0, since_refine_s_ = kLong, since_reduce_s_ = kLong, since_try_s_ = 0;

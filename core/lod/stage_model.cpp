@@ -123,7 +123,8 @@ void StageModel::learn_bound(const Terms& x, float bound_us, bool late) {
   if (!again) return;  // One late frame may be a spike.
   if (hopes_ > 0) probe_frames_ = std::min(2 * probe_frames_, kProbeMax);
   hopes_ = 0;
-  scale(std::max(least, std::min(1.05f * bound / predicted, 2.0f)));
+  // Late says that the cost was above the bound, however far below it the model was.
+  scale(std::max(least, 1.1f * bound / predicted));
 }
 
 void StageModel::scale(float factor) {

@@ -22,18 +22,19 @@ void print_table() {
   if (rows().empty()) return;
   std::printf(
       "\n%.0f h of virtual time a line; noise 4 %%, 3 ms spikes, throttling, load steps, shots\n"
-      "%-11s %3s %-22s %9s %8s %6s %10s %9s %9s %6s\n",
-      rows()[0].scenario.hours, "board", "fps", "policy", "in time", "late", "worst*", "changes/h",
-      "most/s**", "triangles", "scale");
+      "%-11s %3s %4s %-22s %9s %8s %6s %10s %9s %9s %6s\n",
+      rows()[0].scenario.hours, "board", "fps", "seed", "policy", "in time", "late", "worst*",
+      "changes/h", "most/s**", "triangles", "scale");
   for (const Row& row : rows()) {
     const sim::Outcome& o = row.outcome;
     const std::string policy = std::string(sim::name_of(row.scenario.policy)) +
                                (row.scenario.has_fence ? "" : ", no fence");
-    std::printf("%-11s %3d %-22s %8.4f%% %8llu %6u %10.1f %9u %9.0f %6.3f\n",
-                row.scenario.board.name, 60 / row.scenario.vblanks_per_frame, policy.c_str(),
-                100.0 * o.in_time(), static_cast<unsigned long long>(o.late),
-                o.worst_late_after_step, static_cast<double>(o.changes) / row.scenario.hours,
-                o.most_changes_in_a_second, o.mean_triangles, o.mean_scale);
+    std::printf("%-11s %3d %4u %-22s %8.4f%% %8llu %6u %10.1f %9u %9.0f %6.3f\n",
+                row.scenario.board.name, 60 / row.scenario.vblanks_per_frame,
+                static_cast<unsigned>(row.scenario.seed), policy.c_str(), 100.0 * o.in_time(),
+                static_cast<unsigned long long>(o.late), o.worst_late_after_step,
+                static_cast<double>(o.changes) / row.scenario.hours, o.most_changes_in_a_second,
+                o.mean_triangles, o.mean_scale);
   }
   std::puts("*  most late frames within 2 s after a load or thermal step");
   std::puts("** most level changes within a second of steady state");
@@ -52,23 +53,30 @@ void day(benchmark::State& state, const sim::Scenario& scenario) {
   rows().push_back({scenario, outcome});
 }
 
+void register_day(const lod::BoardCosts& board, int fps, const std::string& policy,
+                  std::uint64_t seed) {
+  sim::Scenario scenario;
+  scenario.board = board;
+  scenario.vblanks_per_frame = static_cast<std::uint16_t>(60 / fps);
+  scenario.policy = policy[0] == 'c'   ? sim::Policy::controller
+                    : policy[0] == 'f' ? sim::Policy::fixed
+                                       : sim::Policy::reactive;
+  scenario.has_fence = policy != "controller_no_fence";
+  scenario.seed = seed;
+  const std::string name = std::string("lod/day/") + board.name + "/" + std::to_string(fps) + "/" +
+                           policy + "/" + std::to_string(seed);
+  benchmark::RegisterBenchmark(name.c_str(), day, scenario)
+      ->Iterations(1)
+      ->Unit(benchmark::kMillisecond);
+}
+
 bool register_days() {
   for (const lod::BoardCosts& board : lod::boards())
-    for (const int fps : {30, 60})
-      for (const char* policy : {"controller", "controller_no_fence", "fixed", "reactive"}) {
-        sim::Scenario scenario;
-        scenario.board = board;
-        scenario.vblanks_per_frame = static_cast<std::uint16_t>(60 / fps);
-        scenario.policy = policy[0] == 'c'   ? sim::Policy::controller
-                          : policy[0] == 'f' ? sim::Policy::fixed
-                                             : sim::Policy::reactive;
-        scenario.has_fence = std::string(policy) != "controller_no_fence";
-        const std::string name =
-            std::string("lod/day/") + board.name + "/" + std::to_string(fps) + "/" + policy;
-        benchmark::RegisterBenchmark(name.c_str(), day, scenario)
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
-      }
+    for (const int fps : {30, 60}) {
+      for (const char* policy : {"controller", "controller_no_fence"})
+        for (const std::uint64_t seed : {1u, 2u, 3u}) register_day(board, fps, policy, seed);
+      for (const char* policy : {"fixed", "reactive"}) register_day(board, fps, policy, 1);
+    }
   return at_end(print_table);
 }
 [[maybe_unused]] const bool registered = register_days();

@@ -17,7 +17,7 @@ namespace {
 
 // A position further from the middle of the edge than this part of the mean distance of the ring
 // (both squared) comes of planes that hardly meet: it would stand out as a spike.
-constexpr double kFar = 0.25;
+constexpr double kFar = 0.3;
 bool too_far(const Vec3d& x, const EdgeSums& sums) {
   return length2(x) * sums.ring_count > kFar * sums.ring_square;
 }
