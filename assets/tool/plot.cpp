@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "assets/bake/plot/error_plot.h"
 #include "assets/bake/plot/metrics_plot.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/text_file.h"
@@ -35,6 +36,12 @@ void plot_fap(const PlotArgs& args) {
   write_chart(chart, args.out);
 }
 
+void plot_errors(const PlotArgs& args) {
+  bake::Chart chart = bake::error_chart(read_text(args.in[0]), args.in[0]);
+  if (!args.title.empty()) chart.title = args.title;
+  write_chart(chart, args.out);
+}
+
 CLI::App* add_kind(CLI::App& plot, const char* name, const char* what, void (*run)(const PlotArgs&),
                    int most) {
   auto args = std::make_shared<PlotArgs>();
@@ -49,7 +56,8 @@ CLI::App* add_kind(CLI::App& plot, const char* name, const char* what, void (*ru
 }  // namespace
 
 void add_plot(CLI::App& app) {
-  CLI::App* plot = app.add_subcommand("plot", "Draw metrics or animation curves as SVG");
+  CLI::App* plot =
+      app.add_subcommand("plot", "Draw metrics, animation curves or simplification errors as SVG");
   plot->require_subcommand(1);
   add_kind(*plot, "metrics",
            "Frame time and triangles over time; several files are compared.\n"
@@ -59,6 +67,10 @@ void add_plot(CLI::App& app) {
            "The FAPs that move most, by region of the face.\n"
            "Example: caryatid-tool plot fap joy.fap -o joy.svg",
            plot_fap, 1);
+  add_kind(*plot, "errors",
+           "Error over faces of the simplifier beside its peers, from the benchmark's JSON.\n"
+           "Example: caryatid-tool plot errors simplify.json -o errors.svg",
+           plot_errors, 1);
 }
 
 }  // namespace caryatid::tool

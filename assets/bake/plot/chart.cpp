@@ -46,8 +46,13 @@ std::string segment(double x0, double y0, double x1, double y1, const std::strin
 struct Frame {
   const ChartPanel& panel;
   double left, top, wide, x_low, x_high, low, high;
-  double x(double v) const { return left + wide * (v - x_low) / std::max(x_high - x_low, 1e-12); }
-  double y(double v) const { return top + panel.height * (high - v) / std::max(high - low, 1e-12); }
+  bool log_x;
+  double x(double v) const { return left + wide * part(v, x_low, x_high, log_x); }
+  double y(double v) const { return top + panel.height * (1.0 - part(v, low, high, panel.log_y)); }
+  static double part(double v, double low, double high, bool logarithmic) {
+    if (logarithmic) return std::log(v / low) / std::max(std::log(high / low), 1e-12);
+    return (v - low) / std::max(high - low, 1e-12);
+  }
 };
 
 std::pair<double, double> range_of(const ChartPanel& panel) {
@@ -61,6 +66,7 @@ std::pair<double, double> range_of(const ChartPanel& panel) {
   for (const ChartLine& line : panel.lines)
     for (const double v : line.y) see(v);
   for (const auto& [name, v] : panel.limits) see(v);
+  if (panel.log_y) return low > high ? std::pair{1.0, 10.0} : std::pair{low / 1.15, high * 1.15};
   if (low > high) return {0.0, 1.0};
   if (low > 0.0) low = 0.0;
   const double room = std::max((panel.limits.empty() ? 0.06 : 0.16) * (high - low), 1e-6);
@@ -106,11 +112,11 @@ std::string path_of(const Frame& f, const ChartLine& line) {
 
 std::string axes(const Frame& f, bool name_x) {
   std::string out;
-  for (const double v : ticks(f.low, f.high, 5)) {
+  for (const double v : f.panel.log_y ? log_ticks(f.low, f.high) : ticks(f.low, f.high, 5)) {
     out += segment(f.left, f.y(v), f.left + f.wide, f.y(v), "stroke='#e4e4e4'");
     out += words(f.left - 8, f.y(v) + 4, number(v), kFaint, "end");
   }
-  for (const double v : ticks(f.x_low, f.x_high, 10)) {
+  for (const double v : f.log_x ? log_ticks(f.x_low, f.x_high) : ticks(f.x_low, f.x_high, 10)) {
     const double bottom = f.top + f.panel.height;
     out += segment(f.x(v), bottom, f.x(v), bottom + 4, "stroke='#888888'");
     if (name_x) out += words(f.x(v), bottom + 18, number(v), kFaint, "middle");
@@ -188,6 +194,14 @@ std::vector<double> ticks(double low, double high, int count) {
   return out;
 }
 
+std::vector<double> log_ticks(double low, double high) {
+  std::vector<double> out;
+  for (double ten = std::pow(10.0, std::floor(std::log10(low))); ten <= high; ten *= 10.0)
+    for (const double v : {ten, 2.0 * ten, 5.0 * ten})
+      if (v >= low * (1.0 - 1e-9) && v <= high * (1.0 + 1e-9)) out.push_back(v);
+  return out;
+}
+
 const char* chart_color(std::size_t index) {
   constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                      "#56b4e9", "#8a6d00", "#5b3a9e", "#444444"};
@@ -216,8 +230,9 @@ std::string chart_svg(const Chart& chart) {
   for (std::size_t i = 0; i < chart.panels.size(); ++i) {
     const ChartPanel& panel = chart.panels[i];
     const auto [low, high] = range_of(panel);
-    out += draw({panel, kLeft, top, chart.width - kLeft - kRight, x_low, x_high, low, high},
-                i + 1 == chart.panels.size());
+    out += draw(
+        {panel, kLeft, top, chart.width - kLeft - kRight, x_low, x_high, low, high, chart.log_x},
+        i + 1 == chart.panels.size());
     top += panel.height + kGap;
   }
   out += words(chart.width - kRight, top - kGap + 38, chart.x_title, kInk, "end");

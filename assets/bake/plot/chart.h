@@ -27,16 +27,20 @@ struct ChartPanel {
   std::string bands_name;                              // their name at the first.
   double low = 0.0, high = 0.0;  // Range of y; equal: from the data, with 0 when all is positive.
   double height = 200.0;         // Pixels.
+  bool log_y = false;            // Values > 0 only; so with log_x of the chart.
 };
 
 struct Chart {
   std::string title, x_title;
   std::vector<ChartPanel> panels;
   double width = 960.0;
+  bool log_x = false;
 };
 
 // Round numbers from low to high, about `count` of them: steps of 1, 2 or 5 by a power of ten.
 std::vector<double> ticks(double low, double high, int count);
+// 1, 2 and 5 by powers of ten between low and high, both > 0.
+std::vector<double> log_ticks(double low, double high);
 
 // Colours that stay apart in print and for colour-blind eyes (Okabe and Ito 2008), by index.
 const char* chart_color(std::size_t index);

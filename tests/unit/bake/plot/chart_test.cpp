@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "assets/bake/plot/error_plot.h"
 #include "assets/bake/plot/metrics_plot.h"
 
 namespace caryatid::bake {
@@ -22,6 +23,13 @@ TEST(Chart, TicksAreRoundAndInside) {
   EXPECT_EQ(ticks(3, 22, 4), (std::vector<double>{5, 10, 15, 20}));
   EXPECT_EQ(ticks(-1, 1, 2), (std::vector<double>{-1, 0, 1}));
   EXPECT_TRUE(ticks(1, 1, 5).empty());
+}
+
+TEST(Chart, LogarithmicTicksGoByOneTwoFive) {
+  const std::vector<double> t = log_ticks(3, 50);
+  ASSERT_EQ(t.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(t[i], (std::vector{5.0, 10.0, 20.0, 50.0})[i], 1e-9);
 }
 
 TEST(Chart, ALongLineStaysSmallAndKeepsItsSpike) {
@@ -93,6 +101,22 @@ TEST(Metrics, BadFilesAreRefusedByLine) {
   EXPECT_EQ(what("{\"time_s\":1}\n").substr(0, 5), "m:1: ");
   EXPECT_EQ(what(std::string(kRun) + "{\"time_s\":0,\"triangles\":1}").substr(0, 16),
             "m:3: time_s goes");
+}
+
+TEST(ErrorPlot, APanelAMeshALineAMethod) {
+  const std::string run =
+      R"({"name":"simplify/ball/ours/50/iterations:3","mean":1e-4,"hausdorff":1e-3})";
+  std::string peer = run;
+  peer.replace(peer.find("ours"), 4, "peer");
+  const Chart chart = error_chart(R"({"benchmarks":[)" + run + "," + peer + "]}", "f");
+  ASSERT_EQ(chart.panels.size(), 1u);
+  EXPECT_EQ(chart.panels[0].title, "ball");
+  EXPECT_EQ(chart.panels[0].x, std::vector<double>{50});
+  ASSERT_EQ(chart.panels[0].lines.size(), 4u);
+  EXPECT_EQ(chart.panels[0].lines[2].name, "peer");
+  EXPECT_EQ(chart.panels[0].lines[1].y, std::vector<double>{1e-3});
+  EXPECT_THROW((void)error_chart("{}", "f"), std::runtime_error);
+  EXPECT_THROW((void)error_chart("", "f"), std::runtime_error);
 }
 
 TEST(FapPlot, ShowsWhatMoves) {
