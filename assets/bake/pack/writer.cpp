@@ -8,6 +8,7 @@
 
 #include "assets/bake/pack/quantise.h"
 #include "assets/bake/pack/texels.h"
+#include "assets/bake/simplify/symmetry.h"
 #include "core/base/crc.h"
 #include "core/base/limits.h"
 #include "core/mesh/progressive.h"
@@ -176,6 +177,8 @@ void Writer::put_object(std::uint32_t index) {
   options.base_triangles =
       static_cast<std::uint32_t>(options_.base_fraction[static_cast<std::size_t>(source.role)] *
                                  static_cast<double>(source.mesh.triangles.size()));
+  if (source.role == pack::ObjectRole::head)
+    options.importance = importance_of_head(character_, index);
   ObjectHistory history = simplify_object(source, options);
   if (source.role == pack::ObjectRole::head)
     animation_ = animation_error(character_, index, history, options.base_triangles);

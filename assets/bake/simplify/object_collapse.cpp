@@ -9,6 +9,9 @@
 //   along a loop           onto the cheaper end, while the loop keeps its minimum
 //   free - seam/loop/fixed onto the latter; its attributes stay bit for bit
 //   fixed - fixed and all else: never
+//
+// On a mesh that is symmetric about x = 0 the mirrored edge follows each collapse, to the mirrored
+// place; edges on or across the plane stay on it.
 // Fixed are locked vertices, and corners: where seams end, meet, or reach a border.
 #include <algorithm>
 #include <cmath>
@@ -24,6 +27,7 @@
 #include "assets/bake/simplify/neighbourhood.h"
 #include "assets/bake/simplify/object_history.h"
 #include "assets/bake/simplify/placement.h"
+#include "assets/bake/simplify/symmetry.h"
 #include "assets/bake/simplify/vertex_blend.h"
 
 namespace caryatid::bake {
@@ -33,6 +37,11 @@ namespace {
 constexpr double kMinTurnCosine = 0.25;
 constexpr double kMinShape = 0.02;  // 4 sqrt(3) area / sum of squared edges; 1 is equilateral.
 constexpr float kSharedBoneWeight = 0.1f;
+constexpr double kMirrorTolerance_m = 2e-5;
+// Shade that is baked into vertices resists as if it were relief: so deep where none of the sky is
+// seen. Without it the fold of the upper lid spreads over half the lid at 680 faces.
+constexpr float kShadeDepth_m = 0.004f;
+constexpr std::uint16_t kShadeChannel = 0xFFFF;
 
 struct Loop {
   std::uint32_t count = 0, keep_at_least = 0;
@@ -86,6 +95,9 @@ class ObjectCollapse {
   Plan plan(std::uint32_t h) const;
   Plan plan_onto(std::uint32_t h, const EdgeSums& sums) const;
   bool share_a_bone(std::uint32_t h) const;
+  bool valid(const Plan& plan);
+  void make_symmetric(Plan* plan) const;
+  void collapse_pair(const Plan& plan);
   bool keeps_shape(const Plan& plan) const;
   bool keeps_wedges(const Plan& plan) const;
   void push(std::uint32_t h);
@@ -103,6 +115,8 @@ class ObjectCollapse {
   std::vector<std::uint32_t> version_;  // By wedge: version that it shows now.
   std::vector<VertexVersion> versions_;
   std::vector<bool> locked_, corner_, border_;
+  std::vector<std::uint32_t> mirror_;  // By surface vertex; kNone: none, or no longer.
+  std::vector<float> importance_;      // By surface vertex; may be empty.
   std::vector<std::uint8_t> seam_degree_;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> loop_edges_;  // (other, loop)
   std::vector<Loop> loops_;
@@ -131,6 +145,8 @@ void ObjectCollapse::check() const {
       if (move.vertex >= n) fail("a FAT move names a vertex that is not there");
   for (const std::uint32_t v : object_.locked)
     if (v >= n) fail("a lock names a vertex that is not there");
+  if (!options_.importance.empty() && options_.importance.size() != n)
+    fail("its importance is not as long as its vertices");
 }
 
 // Vertices at the same place are one surface vertex. Triangles that name a place twice carry no
@@ -166,6 +182,13 @@ void ObjectCollapse::weld() {
     position_[mesh_.from[h]] = Vec3d(m.position_m[wedge_[h]]);
   live_triangles_ = static_cast<std::uint32_t>(m.triangles.size());
   serial_.assign(mesh_.from.size(), 0);
+  mirror_.assign(position_.size(), kNone);
+  if (options_.symmetric_pairs) mirror_ = mirror_points(position_, kMirrorTolerance_m);
+  if (options_.importance.empty()) return;
+  importance_.assign(position_.size(), 0.0f);
+  for (std::size_t h = 0; h < wedge_.size(); ++h)
+    importance_[mesh_.from[h]] =
+        std::max(importance_[mesh_.from[h]], options_.importance[wedge_[h]]);
 }
 
 void ObjectCollapse::find_versions() {
@@ -266,13 +289,19 @@ double ObjectCollapse::edge_parameter(std::uint32_t h, const Vec3d& x) const {
   return l2 > 0 ? std::clamp(dot(x - a, d) / l2, 0.0, 1.0) : 0.5;
 }
 
-// Sum over the channels that move this neighbourhood of f_V with the channel at full ramp.
+// Sum over the channels that move this neighbourhood of f_V with the channel at full ramp; baked
+// shade counts as one more.
 double ObjectCollapse::pose_cost(std::uint32_t h, const Vec3d& x, double s) const {
   std::map<std::uint16_t, std::map<std::uint32_t, Vec3d>> moved;
   for_edge_triangles(mesh_, h, [&](std::uint32_t g) {
-    for (const std::uint32_t e : {g, next_in_triangle(g), prev_in_triangle(g)})
-      for (const VertexVersion::ChannelMove& m : versions_[version_[wedge_[e]]].moves)
+    for (const std::uint32_t e : {g, next_in_triangle(g), prev_in_triangle(g)}) {
+      const VertexVersion& version = versions_[version_[wedge_[e]]];
+      for (const VertexVersion::ChannelMove& m : version.moves)
         moved[m.channel][mesh_.from[e]] = Vec3d(m.displacement_m);
+      if (version.occlusion > 0.0f)
+        moved[kShadeChannel][mesh_.from[e]] =
+            Vec3d(kShadeDepth_m * version.occlusion * version.normal);
+    }
   });
   const std::uint32_t a = mesh_.from[h], b = mesh_.to(h);
   const Vec3d middle = 0.5 * (position_[a] + position_[b]);
@@ -360,6 +389,11 @@ bool ObjectCollapse::keeps_shape(const Plan& plan) const {
       q[i] = end ? plan.x : p[i];
     }
     if (ends == 2) return;  // Disappears.
+    // A triangle within the plane of symmetry would be a crease down the middle of a face.
+    const auto on_plane = [](const Vec3d* c) {
+      return std::max({std::abs(c[0].x), std::abs(c[1].x), std::abs(c[2].x)}) < kMirrorTolerance_m;
+    };
+    if (on_plane(q) && !on_plane(p)) good = false;
     const Vec3d before = cross(p[1] - p[0], p[2] - p[0]), after = cross(q[1] - q[0], q[2] - q[0]);
     const double edges = length2(q[1] - q[0]) + length2(q[2] - q[1]) + length2(q[0] - q[2]);
     const double old_edges = length2(p[1] - p[0]) + length2(p[2] - p[1]) + length2(p[0] - p[2]);
@@ -412,9 +446,12 @@ void ObjectCollapse::push(std::uint32_t h) {
   ++serial_[h];
   if (p.kind == Kind::none) return;
   const double l2 = length2(position_[mesh_.to(h)] - position_[mesh_.from[h]]);
+  const double counts = importance_.empty() ? 1.0
+                                            : static_cast<double>(importance_[mesh_.from[h]]) *
+                                                  static_cast<double>(importance_[mesh_.to(h)]);
   // Costs below rounding are all alike: flat ground goes by edge length.
   const double flat = 1e-18 * l2 * l2 * l2;
-  queue_.push({p.cost > flat ? p.cost : 0.0, l2, h, serial_[h]});
+  queue_.push({p.cost > flat ? counts * p.cost : 0.0, l2, h, serial_[h]});
 }
 
 void ObjectCollapse::refresh_around(std::uint32_t v) {
@@ -514,6 +551,68 @@ void ObjectCollapse::collapse(const Plan& plan) {
   mesh_.for_ring(keep, [&](std::uint32_t r) { classify(r); });
 }
 
+bool ObjectCollapse::valid(const Plan& plan) {
+  return plan.kind != Kind::none && mesh_.link_condition(plan.half_edge, scratch_) &&
+         keeps_shape(plan) && keeps_wedges(plan);
+}
+
+// Keeps on the plane what is on it: an edge along or across it ends on it, one that leaves it ends
+// at its point there.
+void ObjectCollapse::make_symmetric(Plan* plan) const {
+  if (plan->kind == Kind::none || plan->kind == Kind::onto) return;
+  const std::uint32_t a = mesh_.from[plan->half_edge], b = mesh_.to(plan->half_edge);
+  const bool on_a = mirror_[a] == a, on_b = mirror_[b] == b;
+  if ((on_a && on_b) || mirror_[a] == b) {
+    plan->x.x = 0;
+  } else if (on_a || on_b) {
+    const std::uint32_t back = mesh_.twin[plan->half_edge];
+    if (on_b && back == kNoHalfEdge) return;
+    plan->half_edge = on_b ? back : plan->half_edge;
+    plan->kind = seam_edge(plan->half_edge) ? Kind::seam : Kind::onto;
+    plan->x = position_[on_a ? a : b];
+  } else if (mirror_[a] != kNone && mirror_[b] != kNone) {
+    // Close to the plane the new vertex and its mirror image would all but coincide.
+    const double l2 = length2(position_[a] - position_[b]);
+    if (plan->x.x * plan->x.x < 0.04 * l2) plan->kind = Kind::none;
+  }
+}
+
+// The collapse, and that of the mirrored edge to the mirrored place. Where that may not be, both
+// ends count as without a mirror from now on.
+void ObjectCollapse::collapse_pair(const Plan& plan) {
+  const std::uint32_t keep = mesh_.from[plan.half_edge], gone = mesh_.to(plan.half_edge);
+  const std::uint32_t other = mirror_[keep], other_gone = mirror_[gone];
+  collapse(plan);
+  refresh_around(keep);
+  if (other == keep && other_gone == gone) return;
+  if (other == gone && other_gone == keep) {
+    mirror_[keep] = std::abs(plan.x.x) <= kMirrorTolerance_m ? keep : kNone;
+    return;
+  }
+  Plan second;
+  if (other != kNone && other_gone != kNone && live_triangles_ > options_.base_triangles) {
+    const std::uint32_t h = mesh_.find(other, other_gone);
+    if (h != kNoHalfEdge) second = this->plan(h);
+    // The mirrored edge may have locks of its own.
+    const bool same =
+        second.kind == plan.kind && (plan.kind != Kind::onto || second.half_edge == h);
+    if (!same && (plan.kind != Kind::onto || second.kind != Kind::free)) second = {};
+    if (second.kind != Kind::none) {
+      second.half_edge = h;
+      second.kind = plan.kind;
+      second.x = plan.kind == Kind::onto ? position_[other] : mirrored(plan.x);
+    }
+  }
+  if (valid(second)) {
+    collapse(second);
+    refresh_around(other);
+    return;
+  }
+  mirror_[keep] = kNone;
+  if (other != kNone) mirror_[other] = kNone;
+  if (other_gone != kNone) mirror_[other_gone] = kNone;
+}
+
 ObjectHistory ObjectCollapse::run() {
   for (std::uint32_t h = 0; h < mesh_.from.size(); ++h)
     if (mesh_.twin[h] == kNoHalfEdge || h < mesh_.twin[h]) push(h);
@@ -524,13 +623,9 @@ ObjectHistory ObjectCollapse::run() {
     if (!mesh_.alive(top.half_edge / 3) || serial_[top.half_edge] != top.serial ||
         (twin != kNoHalfEdge && twin < top.half_edge))
       continue;
-    const Plan p = plan(top.half_edge);
-    if (p.kind == Kind::none || !mesh_.link_condition(p.half_edge, scratch_) || !keeps_shape(p) ||
-        !keeps_wedges(p))
-      continue;
-    const std::uint32_t keep = mesh_.from[p.half_edge];
-    collapse(p);
-    refresh_around(keep);
+    Plan p = plan(top.half_edge);
+    make_symmetric(&p);
+    if (valid(p)) collapse_pair(p);
   }
   return finish();
 }

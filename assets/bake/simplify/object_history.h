@@ -57,6 +57,11 @@ struct ObjectOptions {
   // Weight of the volume error of each animation pose beside that of rest: mouth and eyes resist.
   double pose_weight = 0.5;
   bool vertex_cache_order = true;
+  // Edges of a mesh that is symmetric about x = 0 collapse in pairs, so that every level is, too.
+  bool symmetric_pairs = true;
+  // By vertex, or empty: the cost of an edge is multiplied by what both its ends count. Where the
+  // object is seldom seen, less.
+  std::vector<float> importance = {};
 };
 
 // Simplifies an object as far as its locks allow; the finest level is the object itself, bit for
