@@ -42,11 +42,10 @@ float distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 class Lips {
  public:
   explicit Lips(agent::Person* person) : person_(*person) {
-    person_.show(person_.rest_face(), body::BapFrame{}, Affine{}, 0.0f);
+    person_.show(person_.rest_face(), body::BapFrame{}, Affine{}, 0.0f);  // Turns no head.
     const pack::View& view = person_.view();
     for (std::size_t o = 0; o < person_.object_count(); ++o)
       if (view.objects[o].role == pack::ObjectRole::head) head_ = o;
-    upper_m_ = point(2, 2);
     const Vec3 lower = point(2, 3);
     const scene::MeshView& mesh = person_.meshes()[head_];
     for (std::size_t i = 0; i < 3 * std::size_t{mesh.triangle_count}; i += 3) {
@@ -81,7 +80,6 @@ class Lips {
 
   agent::Person& person_;
   std::size_t head_ = 0;
-  Vec3 upper_m_{0};
   std::vector<std::array<std::uint16_t, 3>> lower_lip_;
 };
 
@@ -123,7 +121,10 @@ std::vector<Shown> show(std::span<const TimedPhone> phones, double end_s,
     mix.speech = &m.faps;
     mix.speech_strength = m.strength;
     mix.limits = &person->limits();
-    person->show(mix.run(), body::BapFrame{}, Affine{}, 0.0f);
+    face::FapFrame shown = mix.run();
+    // The mesh is measured where it was made; teeth are told where the skull has turned them.
+    for (const int fap : {48, 49, 50}) shown.set(fap, 0.0f);
+    person->show(shown, body::BapFrame{}, Affine{}, 0.0f);
     out.push_back({t, lips.gap_m(), lips.teeth_m()});
   }
   return out;
