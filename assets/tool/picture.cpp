@@ -58,8 +58,10 @@ double to_linear(std::uint8_t v) { return std::pow(v / 255.0, 2.2); }
 
 void write_png(const Picture& picture, const std::string& path) {
   const auto w = static_cast<int>(picture.width), h = static_cast<int>(picture.height);
-  if (stbi_write_png(path.c_str(), w, h, 3, picture.rgb.data(), 3 * w) == 0)
-    throw std::runtime_error(path + ": can't be written; name a folder that exists");
+  const bool written = path.ends_with(".jpg")
+                           ? stbi_write_jpg(path.c_str(), w, h, 3, picture.rgb.data(), 88) != 0
+                           : stbi_write_png(path.c_str(), w, h, 3, picture.rgb.data(), 3 * w) != 0;
+  if (!written) throw std::runtime_error(path + ": can't be written; name a folder that exists");
 }
 
 Picture halved(const Picture& p) {

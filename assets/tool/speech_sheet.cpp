@@ -21,8 +21,8 @@ scene::Framing framing_of(const agent::Person& person, bool mouth_only) {
   scene::Framing f = scene::framing(scene::View::head, subject);
   if (!mouth_only) {
     // From the brows' hair to the collar: the lips are what it is about.
-    f.target_m.y = subject.eyes_m.y - 0.025f;
-    f.visible_height_m = f.visible_width_m = 0.25f;
+    f.target_m.y = subject.eyes_m.y - 0.02f;
+    f.visible_height_m = f.visible_width_m = 0.28f;
     return f;
   }
   // From the nose to under the chin.
@@ -107,10 +107,10 @@ Picture speech_strip(const Spoken& spoken, const std::string& text, std::uint32_
                      Studio* studio) {
   constexpr std::uint32_t kWave = 70, kPhones = 26, kWords = 40;
   const std::int32_t row_ms = kFrame_ms * static_cast<std::int32_t>(kColumns);
-  // The pause at the end is as good as over after a quarter of a second.
+  // Of the pause at the end a fifth of a second is enough to see the mouth shut.
   std::int32_t last_ms = 0;
   for (const SpokenEvent& e : spoken.events)
-    if (e.kind == Kind::phone && !e.text.empty()) last_ms = e.time_ms + 350;
+    if (e.kind == Kind::phone && !e.text.empty()) last_ms = e.time_ms + 200;
   last_ms = std::min(last_ms, spoken.end_ms);
   const auto rows = static_cast<std::uint32_t>((last_ms + row_ms - 1) / row_ms);
   const std::uint32_t row_height = cell + kWave + kPhones + kWords;
