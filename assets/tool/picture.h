@@ -16,7 +16,8 @@ struct Picture {
       : width(w), height(h), rgb(std::size_t{3} * w * h, grey) {}
 };
 
-// Writes PNG, or JPEG where the name ends in .jpg; throws std::runtime_error when the file can't be written.
+// Writes PNG, or JPEG where the name ends in .jpg; throws std::runtime_error when the file can't be
+// written.
 void write_png(const Picture& picture, const std::string& path);
 
 // Half the size, each pixel the mean of four (in linear light, so that edges keep their weight).
