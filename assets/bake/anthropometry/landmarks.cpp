@@ -165,14 +165,19 @@ class Finder {
       add("ft" + lr, narrowest, "narrowest forehead above the brow");
     }
     if (!obs || !obi) return;
-    constexpr float kTragus_m = 0.010f, kArch_m = 0.032f;
+    constexpr float kTragus_m = 0.010f;
     const Vec3 ear = glm::mix(*obs, *obi, 0.45f);
     add("pra" + lr, glm::mix(*obs, *obi, 0.5f), "between 10.9 and 10.7 (10.10 and 10.8)");
     add("t" + lr, outside(side, ear.y, ear.z + kTragus_m), "before the ear, at the tragus");
     const auto orbit = at("or" + lr), op = at("op"), vertex = at("v");
-    if (orbit && pupil)
-      add("zy" + lr, widest(side, orbit->y - 0.03f, orbit->y, ear.z + kArch_m, pupil->z),
+    if (orbit && pupil) {
+      // The arch stands out before the ear, whose own rim is wider still.
+      constexpr float kBeforeEar = 0.4f;
+      add("zy" + lr,
+          widest(side, orbit->y - 0.03f, orbit->y,
+                 glm::mix(ear.z + kTragus_m, pupil->z, kBeforeEar), pupil->z),
           "widest cheek bone before the ear");
+    }
     if (op && vertex)
       add("eu" + lr, widest(side, at("obs" + lr)->y + 0.02f, vertex->y, op->z, ear.z + 0.03f),
           "widest skull above the ear");
