@@ -2,7 +2,6 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
-#include FT_MODULE_H
 #include <hb-ot.h>
 #include <hb-subset.h>
 
@@ -59,17 +58,79 @@ Blob subset(hb_face_t* face, const hb_set_t* wanted, bool outlines) {
   return Blob(hb_face_reference_blob(out.get()));
 }
 
+// Glyphs are drawn so many times finer than the field: outlines may overlap themselves, which a
+// field taken from the curves would show as notches.
+constexpr int kFine = 8;
+
+// n / kFine, rounded down.
+int floor_of(int n) { return n >= 0 ? n / kFine : -((-n + kFine - 1) / kFine); }
+
+// What is ink on the fine grid, and the distance field of it.
+class FineMask {
+ public:
+  FineMask(int width, int height)
+      : width_(width), height_(height), ink_(std::size_t(width) * std::size_t(height)) {}
+  void set(int x, int y, bool ink) { ink_[index(x, y)] = ink; }
+
+  // A texel for kFine x kFine pixels, 128 at the edge, 255 and 0 at spread texels in and out.
+  std::vector<unsigned char> field(int spread) const {
+    const int reach = spread * kFine;
+    const std::vector<int> to_ink = columns(true, reach), to_paper = columns(false, reach);
+    std::vector<unsigned char> out;
+    for (int y = kFine / 2; y < height_; y += kFine)
+      for (int x = kFine / 2; x < width_; x += kFine) {
+        const double outside = nearest(to_ink, x, y, reach);
+        const double inside = nearest(to_paper, x, y, reach);
+        const double depth = (inside > 0.0 ? inside - 0.5 : 0.5 - outside) / reach;
+        out.push_back(
+            static_cast<unsigned char>(std::clamp(std::lround(128.0 + 127.0 * depth), 0l, 255l)));
+      }
+    return out;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return std::size_t(y) * std::size_t(width_) + std::size_t(x);
+  }
+  // Distance of each pixel to the nearest one of that kind in its column.
+  std::vector<int> columns(bool ink, int most) const {
+    std::vector<int> out(ink_.size(), most);
+    for (int x = 0; x < width_; ++x) {
+      int distance = most;
+      for (int y = 0; y < height_; ++y) {
+        distance = ink_[index(x, y)] == ink ? 0 : std::min(distance + 1, most);
+        out[index(x, y)] = distance;
+      }
+      distance = most;
+      for (int y = height_ - 1; y >= 0; --y) {
+        distance = ink_[index(x, y)] == ink ? 0 : std::min(distance + 1, most);
+        out[index(x, y)] = std::min(out[index(x, y)], distance);
+      }
+    }
+    return out;
+  }
+  double nearest(const std::vector<int>& column, int x, int y, int reach) const {
+    int best = reach * reach;
+    for (int i = std::max(0, x - reach); i < std::min(width_, x + reach); ++i) {
+      const int d = column[index(i, y)], dx = i - x;
+      best = std::min(best, d * d + dx * dx);
+    }
+    return std::sqrt(double(best));
+  }
+
+  int width_, height_;
+  std::vector<bool> ink_;
+};
+
 class Outlines {
  public:
   Outlines(hb_blob_t* blob, const FontRequest& request) : request_(request) {
     if (FT_Init_FreeType(&library_) != 0) throw std::runtime_error("FreeType does not start");
-    const auto spread = static_cast<FT_Int>(request.spread_px);
-    for (const char* module : {"sdf", "bsdf"}) FT_Property_Set(library_, module, "spread", &spread);
     unsigned size = 0;
     const char* data = hb_blob_get_data(blob, &size);
     if (FT_New_Memory_Face(library_, reinterpret_cast<const FT_Byte*>(data),
                            static_cast<FT_Long>(size), 0, &face_) != 0 ||
-        FT_Set_Pixel_Sizes(face_, 0, request.em_px) != 0)
+        FT_Set_Pixel_Sizes(face_, 0, kFine * request.em_px) != 0)
       throw std::runtime_error("the font has no outlines that FreeType can read; use another");
   }
   Outlines(const Outlines&) = delete;
@@ -85,18 +146,26 @@ class Outlines {
     g.place.glyph_id = static_cast<std::uint16_t>(id);
     if (FT_Load_Glyph(face_, id, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return g;
     if (face_->glyph->outline.n_points == 0) return g;
-    if (FT_Render_Glyph(face_->glyph, FT_RENDER_MODE_SDF) != 0)
+    if (FT_Render_Glyph(face_->glyph, FT_RENDER_MODE_NORMAL) != 0)
       throw std::runtime_error("a glyph's outline is broken; use another font");
     const FT_Bitmap& bitmap = face_->glyph->bitmap;
-    g.place.width = static_cast<std::uint16_t>(bitmap.width);
-    g.place.height = static_cast<std::uint16_t>(bitmap.rows);
+    const int spread = static_cast<int>(request_.spread_px);
+    const int left = floor_of(face_->glyph->bitmap_left) - spread;
+    const int top = -floor_of(-face_->glyph->bitmap_top) + spread;
+    const int right = -floor_of(-face_->glyph->bitmap_left - int(bitmap.width)) + spread;
+    const int bottom = floor_of(face_->glyph->bitmap_top - int(bitmap.rows)) - spread;
+    g.place.width = static_cast<std::uint16_t>(right - left);
+    g.place.height = static_cast<std::uint16_t>(top - bottom);
     const double unit = double(pack::kUnitsPerEm) / request_.em_px;
-    g.place.left = static_cast<std::int16_t>(std::lround(face_->glyph->bitmap_left * unit));
-    g.place.top = static_cast<std::int16_t>(std::lround(face_->glyph->bitmap_top * unit));
-    for (unsigned y = 0; y < bitmap.rows; ++y) {
-      const unsigned char* row = bitmap.buffer + std::ptrdiff_t(y) * bitmap.pitch;
-      g.field.insert(g.field.end(), row, row + bitmap.width);
-    }
+    g.place.left = static_cast<std::int16_t>(std::lround(left * unit));
+    g.place.top = static_cast<std::int16_t>(std::lround(top * unit));
+    FineMask mask(kFine * (right - left), kFine * (top - bottom));
+    const int x0 = face_->glyph->bitmap_left - kFine * left;
+    const int y0 = kFine * top - face_->glyph->bitmap_top;
+    for (int y = 0; y < int(bitmap.rows); ++y)
+      for (int x = 0; x < int(bitmap.width); ++x)
+        mask.set(x0 + x, y0 + y, bitmap.buffer[std::ptrdiff_t(y) * bitmap.pitch + x] >= 128);
+    g.field = mask.field(spread);
     return g;
   }
 
