@@ -51,6 +51,16 @@ void drop_high_pieces(FittedPart& part, std::span<const Vec3> base_m) {
     if (base_m[v].y > top_m - kOpening_m) part.proxy.hides[v] = false;
 }
 
+// See PartRecipe::least_quads.
+void drop_small_pieces(FittedPart& part) {
+  const auto piece = pieces_of(part.proxy.quads, part.position_m.size());
+  std::vector<int> quads(piece.size(), 0);
+  for (const Quad& quad : part.proxy.quads) ++quads[piece[quad.vertex[0]]];
+  std::erase_if(part.proxy.quads, [&](const Quad& quad) {
+    return quads[piece[quad.vertex[0]]] < part.recipe.least_quads;
+  });
+}
+
 // See PartRecipe::upper_only: pieces whose middle lies below that of the eye.
 void drop_lower_pieces(FittedPart& part, float eye_m) {
   const auto piece = pieces_of(part.proxy.quads, part.position_m.size());
@@ -226,6 +236,7 @@ void stand(Figure& figure) {
     for (Vec3& p : part.position_m) p += shift;
   for (FittedPart& part : figure.parts) {
     if (part.recipe.drop_above_m > 0) drop_high_pieces(part, figure.base_m);
+    if (part.recipe.least_quads > 0) drop_small_pieces(part);
     if (part.recipe.upper_only) drop_lower_pieces(part, figure.eye_center_m(0).y);
   }
 }

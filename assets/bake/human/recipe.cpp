@@ -70,7 +70,7 @@ SkinRecipe read_skin(const toml::table& t) {
 
 PartRecipe read_part(const toml::table& t) {
   expect_keys(t, {"proxy", "texture", "tint", "saturation", "contrast", "softness", "gloss",
-                  "shininess", "grow_m", "drop_above_m", "upper_only"});
+                  "shininess", "grow_m", "drop_above_m", "least_quads", "upper_only"});
   PartRecipe p;
   p.proxy = text(t, "proxy");
   p.texture = text(t, "texture");
@@ -82,6 +82,7 @@ PartRecipe read_part(const toml::table& t) {
   p.shininess = number(t, "shininess", p.shininess);
   p.grow_m = number(t, "grow_m", p.grow_m);
   p.drop_above_m = number(t, "drop_above_m", p.drop_above_m);
+  p.least_quads = t["least_quads"].value_or(0);
   p.upper_only = t["upper_only"].value_or(false);
   return p;
 }

@@ -53,6 +53,8 @@ struct PartRecipe {
   // Connected parts that reach above this height when the figure stands are left out: the socks of
   // a shoe. 0: all stay.
   float drop_above_m = 0.0f;
+  // Connected parts with fewer quads are left out: wisps of hair, which turn to spikes when coarse.
+  int least_quads = 0;
   bool upper_only = false;  // Of lashes: those of the lower lid are left out.
 };
 

@@ -102,6 +102,16 @@ TEST(Motions, BlendsKeepVolume) {
   EXPECT_NEAR(glm::distance(p[0], Vec3(1, 0, 0)), 1.0f, 1e-5f);
 }
 
+TEST(MeshTools, PiecesAreWhatEdgesConnect) {
+  const std::vector<Quad> quads = {
+      {{0, 1, 2, 3}, {}, 0}, {{1, 4, 5, 2}, {}, 0}, {{6, 7, 8, 9}, {}, 0}};
+  const std::vector<std::uint32_t> piece = pieces_of(quads, 11);
+  EXPECT_EQ(piece[0], piece[5]);
+  EXPECT_EQ(piece[6], piece[9]);
+  EXPECT_NE(piece[0], piece[6]);
+  EXPECT_NE(piece[10], piece[0]) << "a vertex without quads is a piece of its own";
+}
+
 TEST(Images, SrgbRoundTrips) {
   for (const float c : {0.0f, 0.02f, 0.2f, 0.7f, 1.0f})
     EXPECT_NEAR(linear_to_srgb(srgb_to_linear(c)), c, 1e-5f);
