@@ -52,7 +52,7 @@ TEST(BackgroundWriter, AReaderNeverSeesAPiece) {
 
 TEST(BackgroundWriter, AFolderThatIsNotThereIsToldAtTheNextPut) {
   BackgroundWriter writer;
-  ASSERT_TRUE(writer.add("/nonexistent/status", false).ok());
+  ASSERT_TRUE(writer.add("/proc/nonexistent/status", false).ok());
   ASSERT_TRUE(writer.start().ok());
   ASSERT_TRUE(writer.put(0, std::string_view("x")).ok());
   Status status;
