@@ -16,6 +16,7 @@
 #include "assets/tool/speech_sheet.h"
 #include "assets/tool/studio.h"
 #include "core/emotion/emotion.h"
+#include "core/face/fap_fill.h"
 #include "core/face/fap_table.h"
 #include "core/face/visemes.h"
 
@@ -34,6 +35,18 @@ struct Cells {
   std::vector<Picture> pictures;
   std::vector<std::string> captions;
 };
+
+// Portraits of the face from brow to chin, or of the mouth with nose and chin.
+enum class Portrait { face, mouth };
+
+scene::Framing portrait(const Studio& studio, Portrait which) {
+  const scene::Subject subject = scene::subject_of(studio.person().view());
+  scene::Framing f = scene::framing(scene::View::head, subject);
+  const bool mouth = which == Portrait::mouth;
+  f.target_m = subject.eyes_m - Vec3{0, mouth ? 0.075f : 0.038f, 0};
+  f.visible_height_m = f.visible_width_m = mouth ? 0.13f : 0.225f;
+  return f;
+}
 
 Cells emotions(Studio* studio, const std::string& lod) {
   Cells cells;
@@ -55,6 +68,7 @@ Cells visemes(Studio* studio) {
   for (int v = 0; v < face::kVisemeCount; ++v) {
     Pose pose;
     pose.faps = face::viseme_frame(v);
+    pose.framing = portrait(*studio, Portrait::mouth);
     cells.pictures.push_back(studio->picture(pose));
     cells.captions.push_back(std::to_string(v) + "  " + kPhonemes[v]);
   }
@@ -87,6 +101,19 @@ Cells lips(Studio* studio) {
   return cells;
 }
 
+// One FAP at some value. The tongue shows in an open mouth only; heads that turn need their room.
+Pose pose_of(const Studio& studio, int fap, float value) {
+  Pose pose;
+  const bool tongue = fap >= 43 && fap <= 47, turns = fap >= 48 && fap <= 50;
+  if (tongue)
+    for (const auto& [open, by] : {std::pair{3, 520.0f}, {4, -120.0f}, {5, -560.0f}})
+      pose.faps.set(open, by);
+  face::fill_from_partners(&pose.faps);
+  pose.faps.set(fap, value);
+  if (!turns) pose.framing = portrait(studio, tongue ? Portrait::mouth : Portrait::face);
+  return pose;
+}
+
 Cells faps(Studio* studio) {
   Cells cells;
   const face::FapLimits& limits = studio->person().limits();
@@ -94,14 +121,12 @@ Cells faps(Studio* studio) {
     const auto n = static_cast<std::size_t>(fap);
     for (const float end : {limits.low[n], limits.high[n]}) {
       if (end == 0.0f) continue;
-      Pose pose;
       // The ends of the working range: the table reaches a little further.
-      pose.faps.set(fap, end / face::kReach);
-      cells.pictures.push_back(studio->picture(pose));
+      const float value = end / face::kReach;
+      cells.pictures.push_back(studio->picture(pose_of(*studio, fap, value)));
       char text[96];
       std::snprintf(text, sizeof text, "%d %s %.0f", fap,
-                    std::string(face::fap_info(fap).name).c_str(),
-                    static_cast<double>(end / face::kReach));
+                    std::string(face::fap_info(fap).name).c_str(), static_cast<double>(value));
       cells.captions.emplace_back(text);
     }
   }

@@ -94,15 +94,16 @@ struct Tie {
   float sign;
   float slack;
 };
-// Slack of 330 MNS is 6 mm: half the height of a lip. Set by looking for notches and folds.
+// Slack of 180 MNS is 3 mm: a fifth of how far a lower lip opens. Set by looking for notches and
+// folds.
 constexpr Tie kTies[] = {
     // Along the inner contour, from it to the outer one, along that; then the brows.
-    {5, 10, 1, 330},   {5, 11, 1, 330},  {10, 12, 1, 560}, {11, 13, 1, 560}, {4, 8, 1, 300},
-    {4, 9, 1, 300},    {8, 12, -1, 450}, {9, 13, -1, 450}, {5, 52, 1, 300},  {10, 57, 1, 300},
-    {11, 58, 1, 300},  {4, 51, 1, 250},  {8, 55, 1, 250},  {9, 56, 1, 250},  {12, 59, 1, 150},
-    {13, 60, 1, 150},  {6, 53, 1, 60},   {7, 54, 1, 60},   {52, 57, 1, 330}, {52, 58, 1, 330},
-    {57, 59, 1, 560},  {58, 60, 1, 560}, {51, 55, 1, 300}, {51, 56, 1, 300}, {55, 59, -1, 450},
-    {56, 60, -1, 450}, {31, 33, 1, 190}, {32, 34, 1, 190}, {33, 35, 1, 220}, {34, 36, 1, 220},
+    {5, 10, 1, 180},   {5, 11, 1, 180},  {10, 12, 1, 560}, {11, 13, 1, 560}, {4, 8, 1, 150},
+    {4, 9, 1, 150},    {8, 12, -1, 350}, {9, 13, -1, 350}, {5, 52, 1, 150},  {10, 57, 1, 150},
+    {11, 58, 1, 150},  {4, 51, 1, 130},  {8, 55, 1, 130},  {9, 56, 1, 130},  {12, 59, 1, 150},
+    {13, 60, 1, 150},  {6, 53, 1, 60},   {7, 54, 1, 60},   {52, 57, 1, 180}, {52, 58, 1, 180},
+    {57, 59, 1, 560},  {58, 60, 1, 560}, {51, 55, 1, 150}, {51, 56, 1, 150}, {55, 59, -1, 350},
+    {56, 60, -1, 350}, {31, 33, 1, 160}, {32, 34, 1, 160}, {33, 35, 1, 130}, {34, 36, 1, 130},
 };
 
 void pull(const Tie& tie, FapFrame& frame) {
@@ -137,9 +138,9 @@ void part_lips(FapFrame& frame) {
 }
 
 void keep_tongue_in(FapFrame& frame) {
-  constexpr float kBehindTeeth = 120.0f;  // MNS; 2 mm from its rest to the incisors.
-  // The tip is flat enough to reach out by this much for a unit of opening.
-  constexpr float kOutPerOpening = 2.0f;
+  // FAP 45 counts in MW, openings in MNS: three times as short. The tip rests at the teeth; it is
+  // flat enough to come out by twice the opening.
+  constexpr float kBehindTeeth = 15.0f, kOutPerOpening = 0.7f;
   const float lips = -frame.get(4) - frame.get(5);
   const float open = std::max(std::min(frame.get(3), lips), 0.0f);
   frame.set(45, std::min(frame.get(45), kBehindTeeth + kOutPerOpening * open));

@@ -27,12 +27,12 @@ constexpr std::array<Shape, kVisemeCount> kShapes = {{
     {0, 0, 0, 0, 0, 0, 0, 0, 0},
     {40, 60, 60, 0, -40, -20, 0, 0, 0},              // p b m: lips pressed.
     {90, -200, -60, 10, -220, 20, -60, -40, 0},      // f v: lower lip under the upper teeth.
-    {200, -150, -360, 15, 0, 0, 410, 295, 0},        // T D: tongue between the teeth.
-    {110, -70, -200, 20, 0, 0, 490, 130, 80},        // t d: tip behind the upper teeth.
+    {200, -150, -360, 15, 0, 0, 190, 110, 0},        // T D: tongue between the teeth.
+    {110, -70, -200, 20, 0, 0, 270, 20, 80},         // t d: tip behind the upper teeth.
     {230, -70, -260, 10, 0, 0, -60, -60, 260},       // k g: back of the tongue up.
     {130, -150, -240, -90, 260, 260, 120, 0, 120},   // tS dZ S: lips pushed forward, teeth close.
     {70, -170, -190, 60, 0, 0, 120, 20, 60},         // s z: teeth together, lips spread.
-    {130, -70, -230, 20, 0, 0, 500, 130, 60},        // n l
+    {130, -70, -230, 20, 0, 0, 290, 20, 60},         // n l
     {170, -50, -220, -70, 140, 140, 160, -60, 100},  // r
     {640, -110, -570, 0, 0, 0, -60, -40, -80},       // A:
     {330, -150, -320, 60, 0, 0, 0, 0, 60},           // e

@@ -17,27 +17,32 @@ std::vector<Vec3> along(const Weights& weight, Vec3 direction, float m) {
   return field;
 }
 
-// Keeps a patch off lips and lids, whose vertices belong to other FAPs.
-void spare_lips_and_eyes(const Head& head, Weights& weight) {
-  std::vector<std::uint32_t> edge;
-  for (const Lips& lips : head.lips)
-    for (std::size_t r = lips.upper_outer; r < lips.row.size(); ++r)
-      edge.insert(edge.end(), lips.row[r].begin(), lips.row[r].end());
-  for (const Eye& eye : head.eye) {
-    edge.insert(edge.end(), eye.rim.begin(), eye.rim.end());
-    for (std::uint32_t v = 0; v < weight.size(); ++v)
-      if (eye.inside[v]) weight[v] = 0.0f;
-  }
-  constexpr float kFade_m = 0.008f;
-  const auto away = distance_m(head.skin, edge, kFade_m);
+// Fades a patch out towards `edge`.
+void fade(const Head& head, const std::vector<std::uint32_t>& edge, float over_m, Weights& weight) {
+  const auto away = distance_m(head.skin, edge, over_m);
   for (std::uint32_t v = 0; v < weight.size(); ++v)
-    if (away[v] < kFade_m) {
-      const float t = away[v] / kFade_m;
+    if (away[v] < over_m) {
+      const float t = away[v] / over_m;
       weight[v] *= t * t * (3.0f - 2.0f * t);
     }
 }
 
-// A head that lacks the point (a mask without ears) has nothing there to move.
+// Keeps a patch off lips and lids, whose vertices belong to other FAPs. The loose skin beneath the
+// lids takes more room, or a raised cheek would fold it.
+void spare_lips_and_eyes(const Head& head, Weights& weight) {
+  std::vector<std::uint32_t> lips, rims;
+  for (const Lips& half : head.lips)
+    for (std::size_t r = half.upper_outer; r < half.row.size(); ++r)
+      lips.insert(lips.end(), half.row[r].begin(), half.row[r].end());
+  for (const Eye& eye : head.eye) {
+    rims.insert(rims.end(), eye.rim.begin(), eye.rim.end());
+    for (std::uint32_t v = 0; v < weight.size(); ++v)
+      if (eye.inside[v]) weight[v] = 0.0f;
+  }
+  fade(head, lips, 0.008f, weight);
+  fade(head, rims, 0.014f, weight);
+}
+
 Weights patch(const Head& head, int group, int index, float radius_m) {
   if (!head.point_vertex.contains({group, index})) return Weights(head.skin.size(), 0.0f);
   const std::uint32_t at = head.vertex_of(group, index);

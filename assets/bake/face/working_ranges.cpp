@@ -22,7 +22,11 @@ WorkingRanges read_working_ranges(const std::filesystem::path& file) {
     if (!(fields >> fap >> comma >> low >> comma >> high) || fap < 3 || fap > face::kFapCount ||
         low > 0 || high < 0)
       throw std::runtime_error(file.string() + ":" + std::to_string(number) +
-                               ": expected FAP (3..68), low <= 0, high >= 0, source");
+                               ": expected FAP (3..68), low <= 0, high >= 0, muscles, source");
+    std::string muscles;
+    if (!(fields >> comma) || !std::getline(fields, muscles, ',') || muscles.empty())
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) +
+                               ": name the muscles behind the FAP after its range");
     seen[fap] = true;
     ranges.low[fap] = low;
     ranges.high[fap] = high;

@@ -14,7 +14,8 @@ struct WorkingRanges {
   std::array<float, face::kFapCount + 1> high{};
 };
 
-// Columns fap,low,high,source; `#` lines are comments. Throws std::runtime_error naming file and
+// Columns fap,low,high,muscles,source; `#` lines are comments; muscles and source are for who reads
+// the table. Throws std::runtime_error naming file and
 // line when a line is wrong or a FAP 3..68 is missing.
 WorkingRanges read_working_ranges(const std::filesystem::path& file);
 

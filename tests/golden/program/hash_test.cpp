@@ -17,7 +17,7 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0x686be379f16910a8u, kPoseHash = 0x18d89feb35823a52u,
+constexpr std::uint64_t kJoyHash = 0x175e1586fcbf181eu, kPoseHash = 0x18d89feb35823a52u,
                         kDrawListHash = 0xa6d91ca2d0b57393u;
 
 class Hash : public testing::Test {

@@ -15,31 +15,6 @@ using fat::kLipCorner;
 
 class Contact : public OnBothFaces {
  protected:
-  // Height of the upper above the lower inner contour at every column of the lower one, but for the
-  // fold in the corner.
-  std::vector<float> gaps(const PosedFace& face) const {
-    std::vector<float> out;
-    for (int side = 0; side < fat::kSides; ++side) {
-      const fat::Lips& lips = head().lips[static_cast<std::size_t>(side)];
-      const float corner_x = head().lateral(face.point(2, 4 + side), side);
-      for (std::size_t c = kLipCorner + 1; c < kLipColumns; ++c) {
-        const Vec3 low = face.skin_m[lips.row[lips.lower_inner][c]];
-        if (head().lateral(low, side) > 0.9f * corner_x) continue;
-        out.push_back(upper_height(face, lips, low.x) - low.y);
-      }
-    }
-    return out;
-  }
-  static float upper_height(const PosedFace& face, const fat::Lips& lips, float x) {
-    const auto at = [&](std::size_t c) { return face.skin_m[lips.row[lips.upper_inner][c]]; };
-    for (std::size_t c = 0; c < kLipCorner; ++c) {
-      const Vec3 a = at(c), b = at(c + 1);
-      if ((x - a.x) * (x - b.x) > 0.0f) continue;
-      return glm::mix(a.y, b.y, (x - a.x) / (b.x - a.x));
-    }
-    return at(kLipCorner).y;
-  }
-
   // Edges of the two middle incisors: the lowest (highest) vertices near the mid-line in front.
   std::vector<Vec3> incisor_edges(const PosedFace& face, bool upper) const {
     const auto& teeth = face.object(upper ? "upper_teeth" : "lower_teeth");

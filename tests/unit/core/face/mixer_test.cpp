@@ -125,9 +125,49 @@ TEST(Flesh, ASinglePointTakesItsNeighboursAlong) {
   frame.set(5, -900.0f);
   keep_flesh_whole(frame);
   EXPECT_EQ(frame.get(5), -900.0f);
-  EXPECT_EQ(frame.get(52), -600.0f);
-  EXPECT_EQ(frame.get(10), -570.0f);
+  EXPECT_EQ(frame.get(52), -750.0f);
+  EXPECT_EQ(frame.get(10), -720.0f);
   EXPECT_EQ(frame.get(4), 0.0f) << "the other lip stays";
+}
+
+TEST(Lips, AWideJawPartsThemAndASmallOneDoesNot) {
+  FapFrame frame;
+  frame.set(3, 500.0f);
+  part_lips(frame);
+  EXPECT_EQ(frame.get(5), 0.0f);
+  frame.set(3, 1000.0f);
+  part_lips(frame);
+  EXPECT_EQ(frame.get(5), -400.0f);
+  frame.set(5, -700.0f);
+  part_lips(frame);
+  EXPECT_EQ(frame.get(5), -700.0f);
+}
+
+TEST(Tongue, StaysBehindShutTeethAndComesOutBetweenOpenOnes) {
+  FapFrame frame;
+  frame.set(45, 400.0f);
+  keep_tongue_in(frame);
+  const float shut = frame.get(45);
+  EXPECT_LT(shut, 30.0f);
+  frame.set(45, 400.0f);
+  frame.set(3, 300.0f);
+  keep_tongue_in(frame);
+  EXPECT_EQ(frame.get(45), shut) << "the lips are still shut";
+  frame.set(45, 200.0f);
+  frame.set(5, -300.0f);
+  keep_tongue_in(frame);
+  EXPECT_EQ(frame.get(45), 200.0f);
+}
+
+TEST(Mixer, ABlinkMovesTheUpperLid) {
+  const FapLimits limits = wide();
+  FapFrame idle;
+  for (const float closure : {0.25f, 0.5f, 0.75f, 1.0f}) {
+    idle.set(19, closure * 1024.0f);
+    const FapFrame out = MixJob{.idle = &idle, .limits = &limits}.run();
+    EXPECT_LT(out.get(21), 0.1f * 1024.0f);
+    EXPECT_NEAR(out.get(19) + out.get(21), closure * 1024.0f, 30.0f);
+  }
 }
 
 TEST(Flesh, WholeFacesPassUnchanged) {
