@@ -26,6 +26,8 @@ class Desk {
   // with it. A kiosk.toml that can't be used is replaced by the built-in programme.
   // False: even that is unusable, which is a fault of the build.
   bool open(const std::string& config);
+  // Full names of the files that the programme was made of; none for the built-in one.
+  const std::vector<std::string>& files_read() const { return files_read_; }
   // The same for --check: false when anything was said.
   static bool check(const std::string& config);
   // Moves the programme into memory of the agent. False: the arena is too small.

@@ -8,8 +8,10 @@
 
 #include "firmware-app/builtin.h"
 #include "firmware-app/kiosk.h"
+#include "firmware-app/last_good.h"
 #include "platform/buttons/scripted/scripted.h"
 #include "platform/clock/clock.h"
+#include "platform/log/log.h"
 
 namespace caryatid::app {
 namespace {
@@ -35,10 +37,19 @@ bool Kiosk::load_config(std::string* out_error) {
 }
 
 bool Kiosk::read_config() {
+  const LastGood last(options_.virtual_clock ? std::string() : options_.state);
   std::string error;
   if (!load_config(&error)) {
-    complain(error + " (the built-in programme stands in)");
-    options_.config.clear();
+    const std::string kept = last.config();
+    platform::log(platform::Event::config_refused, "%s (%s stands in)", error.c_str(),
+                  kept.empty() ? "the built-in programme" : "the one that worked last");
+    options_.config = kept;
+    if (!kept.empty() && !load_config(&error)) options_.config.clear();
+  } else if (!options_.config.empty() && desk_.open(options_.config)) {
+    if (!last.keep(options_.config, desk_.files_read()))
+      platform::log(platform::Event::file_refused, "%s: the configuration can't be kept; make room",
+                    options_.state.c_str());
+    return read_script();
   }
   if (desk_.open(options_.config)) return read_script();
   complain("the built-in programme or its letters are damaged; build again");

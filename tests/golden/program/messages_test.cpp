@@ -51,6 +51,22 @@ TEST(Messages, CheckNamesWhatIsWrongWithAPack) {
   expect_one_line(run_program("--check --pack " + (folder / "none.pack").string()), 1, "none.pack");
 }
 
+TEST(Messages, AWrongConfigurationIsReplacedByTheOneThatWorkedLast) {
+  const auto folder = fresh_folder("last_good");
+  const auto state = fresh_folder("last_good_state");
+  const std::string good = "[[button]]\nname = \"a\"\nfeel = \"joy\"\n";
+  const auto config = write_file(folder / "kiosk.toml", good);
+  const std::string command = "--display none --audio null --duration 0.1 --config " +
+                              config.string() + " --state " + state.string();
+  EXPECT_EQ(run_program(command).exit_code, 0);
+  write_file(config, "[[button]\n");
+  const Outcome run = run_program(command);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.output.find("kiosk.toml:1: "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("worked last stands in"), std::string::npos) << run.output;
+  EXPECT_EQ(content(state / "last_good" / "kiosk.toml"), good);
+}
+
 TEST(Messages, ADamagedPackLeavesTheBuiltInFace) {
   const auto folder = fresh_folder("builtin");
   const auto cut = write_file(folder / "cut.pack", content(kBuiltin).substr(0, 5000));
