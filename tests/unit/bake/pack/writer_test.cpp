@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/agent/person.h"
 #include "core/mesh/progressive.h"
 #include "core/pack/loader.h"
 
@@ -119,6 +120,49 @@ TEST(PackWriter, WhatItWritesIsLoadedWithoutComplaint) {
       checker.check(source, 0, static_cast<std::uint32_t>(source.splits.size()), scratch).ok());
   EXPECT_EQ(checker.triangle_count, source.max_triangle_count);
   EXPECT_EQ(checker.vertex_count, source.max_vertex_count);
+}
+
+// Progressive transmission: a frame can be drawn from the base part alone, and is refined while the
+// rest of the bytes still come.
+TEST(PackWriter, TheFirstFrameNeedsTheBasePartAlone) {
+  PackReport report;
+  const std::vector<std::byte> file = write_pack(character(), {}, &report);
+  const auto header = pack::read_header(file);
+  ASSERT_TRUE(header.ok());
+  std::vector<std::byte> image(header.value.image_bytes);
+  pack::Loader loader;
+  ASSERT_TRUE(loader.begin(header.value, image).ok());
+  std::size_t at = sizeof(pack::PackHeader);
+  const auto feed = [&](std::size_t bytes) {
+    bytes = std::min(bytes, file.size() - at);
+    EXPECT_TRUE(loader.feed(std::span(file).subspan(at, bytes)).ok());
+    at += bytes;
+  };
+  while (!loader.base_ready()) feed(64);
+  EXPECT_LT(at, report.base_part_bytes + 128);
+  EXPECT_LT(at, file.size() / 2);
+  std::vector<std::byte> memory(agent::Person::arena_bytes(loader.view()));
+  Arena arena(memory);
+  agent::Person person;
+  ASSERT_TRUE(person.start(loader.view(), arena).ok());
+  person.show({}, {}, Affine{}, 0.02f);
+  const std::uint32_t full = header.ok() ? 2u * 32 * 23 : 0;
+  const std::uint32_t wanted[] = {full};
+  EXPECT_GT(person.triangle_count(), 0u);
+  EXPECT_LT(person.triangle_count(), full / 5);
+  std::uint32_t before = person.triangle_count();
+  int refined = 0;
+  while (!loader.complete()) {
+    feed(2000);
+    ASSERT_TRUE(person.refine(loader).ok());
+    person.set_levels(wanted);
+    person.show({}, {}, Affine{}, 0.02f);
+    EXPECT_GE(person.triangle_count(), before);
+    refined += person.triangle_count() > before;
+    before = person.triangle_count();
+  }
+  EXPECT_GT(refined, 2);
+  EXPECT_EQ(person.triangle_count(), full);
 }
 
 TEST(PackWriter, BaseMeshIsSmall) {
