@@ -9,6 +9,7 @@
 #include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/mesh_io/repair.h"
 #include "assets/bake/simplify/distance.h"
+#include "assets/bake/simplify/error_bound.h"
 #include "assets/bake/simplify/history.h"
 #include "assets/tool/commands.h"
 
@@ -53,35 +54,6 @@ std::vector<std::uint32_t> read_locks(const std::string& path, const bake::Repai
     if (surface != bake::kNoHalfEdge) out.push_back(surface);
   }
   return out;
-}
-
-// The coarsest level of the history, of at least `least` faces, whose measured distance to the
-// original, both ways, keeps within the bound. Error grows with coarseness but for small ripples:
-// bisection, then upwards until it holds.
-Surface coarsest_within(const bake::History& history, const Surface& original, double bound,
-                        std::uint32_t least) {
-  const bake::SurfaceTree tree(original);
-  bake::HistoryCursor cursor(history);
-  const auto holds = [&](std::uint32_t faces) {
-    cursor.go_to(faces);
-    progress(("measuring " + std::to_string(cursor.triangle_count()) + " faces").c_str());
-    const Surface level = cursor.surface();
-    if (bake::one_sided(level, tree, 10, 2).max > bound) return false;
-    return bake::one_sided(original, bake::SurfaceTree(level), 10, 1).max <= bound;
-  };
-  auto low = std::max(least, static_cast<std::uint32_t>(history.base.triangles.size()));
-  std::uint32_t high = history.max_triangles();
-  if (low >= high || holds(low)) {
-    cursor.go_to(low);
-    return cursor.surface();
-  }
-  while (high - low > 2) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    (holds(middle) ? high : low) = middle;
-  }
-  while (!holds(high) && high < history.max_triangles()) high += 2;
-  cursor.go_to(high);
-  return cursor.surface();
 }
 
 nlohmann::json side(const bake::OneSided& d) {
@@ -133,7 +105,10 @@ void run_simplify(const SimplifyArgs& args) {
     options.target_triangles = args.history.empty() ? args.faces : 0;
     const bake::History history = bake::record_history(original, options);
     if (args.max_error > 0) {
-      result = coarsest_within(history, original, args.max_error, args.faces);
+      const auto watch = [](std::uint32_t faces) {
+        progress(("measuring " + std::to_string(faces) + " faces").c_str());
+      };
+      result = bake::coarsest_within(history, original, args.max_error, args.faces, watch);
     } else {
       bake::HistoryCursor cursor(history);
       cursor.go_to(args.faces);

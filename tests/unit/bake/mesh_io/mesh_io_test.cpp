@@ -100,5 +100,75 @@ TEST(Repair, CutsAFinOffAnEdge) {
   EXPECT_GE(facts_of(out).components, 2u);
 }
 
+// Every reader: nothing, or next to nothing, is an error with a line, not a mesh.
+TEST(MeshIo, EmptyFilesAreRefused) {
+  for (const MeshFormat f : {MeshFormat::obj, MeshFormat::off, MeshFormat::ply})
+    for (const char* text : {"", "\n", "OFF\n0 0 0\n", "ply\n"})
+      EXPECT_EQ(error_of(text, f).substr(0, 2), "m:") << text;
+}
+
+// Counts are held against the bytes that are there before memory is taken for them.
+TEST(MeshIo, HugeCountsTakeNoMemory) {
+  EXPECT_NE(error_of("OFF\n4294967295 4294967295 0\n", MeshFormat::off), "");
+  EXPECT_NE(error_of("OFF\n99999999999999999999 1 0\n", MeshFormat::off), "");
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const std::string text = std::string("ply\nformat ") + format +
+                             " 1.0\nelement vertex 4000000000\nproperty float x\n"
+                             "property float y\nproperty float z\nelement face 4000000000\n"
+                             "property list uchar int vertex_indices\nend_header\n";
+    EXPECT_NE(error_of(text, MeshFormat::ply), "") << format;
+  }
+  EXPECT_NE(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967299\n", MeshFormat::obj), "");
+}
+
+TEST(Repair, TwoPiecesStayTwo) {
+  Surface s = ball(4, 0.0);
+  const Surface other = s;
+  const auto first = static_cast<std::uint32_t>(s.position.size());
+  for (const Vec3d& p : other.position) s.position.push_back(p + Vec3d(3, 0, 0));
+  for (const Triangle& t : other.triangles)
+    s.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  RepairReport report;
+  const Surface out = repair_surface(s, &report);
+  EXPECT_EQ(report.text(), "");
+  EXPECT_EQ(facts_of(out).components, 2u);
+  CollapseOptions options;
+  options.target_triangles = 20;
+  EXPECT_EQ(facts_of(collapse_edges(out, options)).components, 2u);
+}
+
+// Two tetrahedra that touch in one vertex: each stays a surface of its own.
+TEST(Repair, AVertexOfTwoFansIsSplit) {
+  Surface s = {
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 5, 4}, {0, 4, 6}, {4, 5, 6}, {5, 0, 6}}};
+  RepairReport report;
+  const Surface out = repair_surface(s, &report);
+  EXPECT_EQ(report.topology.non_manifold_vertices, 1u);
+  EXPECT_EQ(out.position.size(), 8u);
+  EXPECT_EQ(facts_of(out).components, 2u);
+  EXPECT_NE(report.text(), "");
+}
+
+// Nothing of a repaired mesh is lost without a word: what the report does not name is still there.
+TEST(Repair, OrientationOfAWholeComponentIsLeftAsItIs) {
+  Surface s = ball(5, 0.0);
+  for (Triangle& t : s.triangles) std::swap(t[1], t[2]);
+  RepairReport report;
+  const Surface out = repair_surface(s, &report);
+  EXPECT_EQ(report.flipped_triangles, 0u);
+  EXPECT_EQ(out.triangles.size(), s.triangles.size());
+  EXPECT_LT(facts_of(out).volume, 0.0);
+}
+
+TEST(Repair, AMeshOfDegenerateFacesEndsEmpty) {
+  Surface s = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}, {0, 0, 1}}};
+  RepairReport report;
+  EXPECT_TRUE(repair_surface(s, &report).triangles.empty());
+  EXPECT_EQ(report.degenerate_triangles, 2u);
+  CollapseOptions options;
+  EXPECT_TRUE(collapse_edges({}, options).triangles.empty());
+}
+
 }  // namespace
 }  // namespace caryatid::bake

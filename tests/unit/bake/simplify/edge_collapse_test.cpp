@@ -11,6 +11,7 @@
 #include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/mesh_io/repair.h"
 #include "assets/bake/simplify/distance.h"
+#include "assets/bake/simplify/error_bound.h"
 #include "assets/bake/simplify/fast_cost.h"
 #include "assets/bake/simplify/history.h"
 #include "assets/bake/simplify/placement.h"
@@ -183,6 +184,36 @@ TEST(History, EveryLevelIsThatOfTheSimplificationItself) {
     const Surface direct = down_to(s, n);
     EXPECT_EQ(shape_of(cursor.surface()), shape_of(direct));
   }
+}
+
+// The other goal: stops before the measured distance passes the bound, and not long before.
+TEST(ErrorBound, StopsWhenTheMeasuredDistanceWouldPassIt) {
+  const Surface s = ball(24, 0.15);
+  CollapseOptions options;
+  options.target_triangles = 4;
+  const History h = record_history(s, options);
+  std::size_t before = s.triangles.size();
+  for (const double bound : {0.002, 0.01, 0.05}) {
+    const Surface level = coarsest_within(h, s, bound, 0);
+    EXPECT_LE(measure_error(s, level).hausdorff(), bound);
+    EXPECT_LT(level.triangles.size(), before);
+    before = level.triangles.size();
+    HistoryCursor cursor(h);
+    cursor.go_to(static_cast<std::uint32_t>(before - 8));
+    EXPECT_GT(measure_error(s, cursor.surface()).hausdorff(), 0.8 * bound);
+  }
+}
+
+TEST(ErrorBound, BothGoalsTogetherStopAtTheFirst) {
+  const Surface s = ball(24, 0.15);
+  CollapseOptions options;
+  options.target_triangles = 4;
+  const History h = record_history(s, options);
+  const std::size_t by_error = coarsest_within(h, s, 0.02, 0).triangles.size();
+  const auto more = static_cast<std::uint32_t>(by_error + 200);
+  EXPECT_NEAR(static_cast<double>(coarsest_within(h, s, 0.02, more).triangles.size()), more, 2.0);
+  EXPECT_EQ(coarsest_within(h, s, 0.02, 4).triangles.size(), by_error);
+  EXPECT_EQ(coarsest_within(h, s, 0.0, 0).triangles.size(), s.triangles.size());
 }
 
 TEST(History, FileComesBackTheSame) {
