@@ -120,7 +120,8 @@ make_board_tree() {
   say "unpacking the emulated board's Debian"
   mmdebstrap --quiet --variant=extract "${mode[@]}" --skip=check/qemu --architectures=arm64 \
     --include="${names// /,}" bookworm "$scratch" http://deb.debian.org/debian \
-    >"$cache/board.log" 2>&1 || fail "no tree of the board; $cache/board.log says why"
+    >"$cache/board.log" 2>&1 ||
+    { rm -rf "$scratch"; fail "no tree of the board; $cache/board.log says why"; }
   python3 cross/board/image.py prepare "$scratch" || fail "the board's tree can't be prepared"
   mv -T "$scratch" "$tree"
 }
