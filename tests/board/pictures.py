@@ -10,22 +10,24 @@ class Picture:
     def __init__(self, width, height, rgb):
         self.width, self.height, self.rgb = width, height, rgb
 
-    def blocks(self, across=0, down=0, size=8, margin=8):
+    def blocks(self, box=(0.03, 0.04, 0.97, 0.96), across=0, down=0, size=8):
         """Mean colours of squares of `size` pixels: what is seen, without how edges are sampled.
-        The picture without its margin, taken from `across` and `down` pixels beside the middle."""
+        Of the part `box` (left, top, right, bottom as shares), moved by `across` and `down`."""
+        left, right = (int(self.width * box[i]) + across for i in (0, 2))
+        top, bottom = (int(self.height * box[i]) + down for i in (1, 3))
         sums = []
-        for top in range(margin + down, self.height - margin + down - size + 1, size):
-            rows = [self.rgb[3 * self.width * y:3 * self.width * (y + 1)]
-                    for y in range(top, top + size)]
-            for left in range(margin + across, self.width - margin + across - size + 1, size):
+        for y in range(top, bottom - size + 1, size):
+            rows = [self.rgb[3 * self.width * r:3 * self.width * (r + 1)]
+                    for r in range(y, y + size)]
+            for x in range(left, right - size + 1, size):
                 for channel in range(3):
-                    first, last = 3 * left + channel, 3 * (left + size) + channel
+                    first, last = 3 * x + channel, 3 * (x + size) + channel
                     sums.append(sum(sum(row[first:last:3]) for row in rows) / (size * size))
         return sums
 
-    def views(self):
+    def views(self, **what):
         """The blocks as they would be if she swayed a little to any side."""
-        return [self.blocks(across, down) for across in (-6, -3, 0, 3, 6)
+        return [self.blocks(across=across, down=down, **what) for across in (-6, -3, 0, 3, 6)
                 for down in (-3, 0, 3)]
 
     def write_png(self, path):
