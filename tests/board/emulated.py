@@ -92,7 +92,8 @@ class HostPictures:
                 file.write(f"0 {mood} down\n0.2 {mood} up\n")
         if mood == "builtin":
             pack = []
-        subprocess.run([self.program, *pack, "--config", CONFIG, "--display", "surfaceless", "--size",
+        subprocess.run([self.program, *pack, "--config", CONFIG,
+                        "--display", "surfaceless", "--size",
                         f"{WIDTH}x{HEIGHT}", *VIEW, "--virtual-clock", "--target-fps", "10",
                         "--duration", "4", "--frames-every", "4", "--frames-out", out, "--script",
                         script], check=True, stdout=subprocess.DEVNULL)
