@@ -577,6 +577,7 @@ void Kiosk::print_memory() {
   const std::size_t image = pack_file_.header().image_bytes;
   line("the rest", image - sum);
   line("live meshes", memory_.arena().used_bytes() - image);
+  line("two programmes", Desk::kArenaBytes);
   std::printf("  %-16s %10zu bytes of the arena, file %u bytes\n", "sum", sum,
               pack_file_.header().file_bytes);
 }
