@@ -274,7 +274,8 @@ FootTarget Walker::swing_foot(const GaitCycle& cycle, const LowerBody& body, boo
   float land_yaw = foot.swing_yaw + (plan_.heading1 - plan_.heading0);
   std::optional<Vec3> landing;
   if (left != left_stands_) {
-    const GaitCycle end = cycle_at(plan_.vigour1);
+    // In a steady walk the cycle at the landing is the present one.
+    const GaitCycle end = plan_.vigour1 == vigour_ ? cycle : cycle_at(plan_.vigour1);
     const Vec2 center = planned_center(end, 0.5f, plan_.heading1) + plan_.error1;
     LowerBody then{.hips_m = {center.x, end.height_m(0.5f), center.y},
                    .heading_rad = plan_.heading1,

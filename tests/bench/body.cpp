@@ -4,6 +4,7 @@
 
 #include "core/base/crc.h"
 #include "core/body/gesture.h"
+#include "core/body/helper_joints.h"
 #include "core/body/pose.h"
 #include "core/body/walker.h"
 #include "tests/bench/bench.h"
@@ -16,7 +17,13 @@ struct Figure {
   body::Walker walker{&skeleton};
   body::GestureLayer gesture;
   body::BapFrame baps;
-  std::array<Affine, body::kHanimJointCount> joints;
+  std::array<Affine, body::kSkinJointCount> joints;
+
+  // As a person is posed: the joints of the standard and the helpers of the skin.
+  Status pose() {
+    CARYATID_TRY((body::PoseJob{.skeleton = &skeleton, .baps = &baps, .out = joints}.run()));
+    return body::pose_helpers(skeleton, joints);
+  }
 };
 
 void set_hash(benchmark::State& state, const Figure& f) {
@@ -29,14 +36,13 @@ void walk_and_pose(benchmark::State& state) {
   for (int i = 0; i < 120; ++i) f.walker.step(1.0f / 30.0f, f.baps);
   for ([[maybe_unused]] auto _ : state) {
     f.walker.step(1.0f / 30.0f, f.baps);
-    benchmark::DoNotOptimize(
-        body::PoseJob{.skeleton = &f.skeleton, .baps = &f.baps, .out = f.joints}.run());
+    benchmark::DoNotOptimize(f.pose());
   }
   // The hash is of a fixed frame, however often the loop ran.
   Figure fixed;
   fixed.walker.walk_to({0, 1e6f});
   for (int i = 0; i < 200; ++i) fixed.walker.step(1.0f / 30.0f, fixed.baps);
-  (void)body::PoseJob{.skeleton = &fixed.skeleton, .baps = &fixed.baps, .out = fixed.joints}.run();
+  (void)fixed.pose();
   set_hash(state, fixed);
 }
 
@@ -44,17 +50,14 @@ void stand_and_pose(benchmark::State& state) {
   Figure f;
   for ([[maybe_unused]] auto _ : state) {
     f.walker.step(1.0f / 30.0f, f.baps);
-    benchmark::DoNotOptimize(
-        body::PoseJob{.skeleton = &f.skeleton, .baps = &f.baps, .out = f.joints}.run());
+    benchmark::DoNotOptimize(f.pose());
   }
 }
 
 void pose_only(benchmark::State& state) {
   Figure f;
   for (int bap = 1; bap <= 180; ++bap) f.baps.set(bap, static_cast<float>(100 * bap));
-  for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(
-        body::PoseJob{.skeleton = &f.skeleton, .baps = &f.baps, .out = f.joints}.run());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(f.pose());
   set_hash(state, f);
 }
 
@@ -70,6 +73,8 @@ void gesture_over(benchmark::State& state) {
   }
 }
 
+// Beside them: the published figure of ozz-animation's order is 1 us for sampling and posing 67
+// joints from a stored clip, with SIMD; here 106 joints are posed from angles in portable code.
 BENCHMARK(walk_and_pose)->Name("body/walk_and_pose");
 BENCHMARK(stand_and_pose)->Name("body/stand_and_pose");
 BENCHMARK(pose_only)->Name("body/pose");
