@@ -240,15 +240,22 @@ void find_quarters(PlacedHead& head, const LipIds& lip, Chain& chain) {
                           nearest(m + 1, chain.size() - 1, chain.back()));
 }
 
-// Half of a contour as 11 columns from the middle to the corner.
-void fill_row(const PlacedHead& head, const Chain& chain, PointId middle, int side, bool upper,
+// Half of a contour as 11 columns from the middle to the corner; the quarter point is always one of
+// them.
+void fill_row(const PlacedHead& head, const Chain& chain, const LipIds& lip, int side, bool upper,
               fat::LipRow& row) {
-  const auto at = std::find(chain.begin(), chain.end(), head.vertex.at(middle));
+  const auto at = std::find(chain.begin(), chain.end(), head.vertex.at({lip.group, lip.middle}));
   Chain half = side == 0 ? Chain(chain.begin(), at + 1) : Chain(at, chain.end());
   if (side == 0) std::reverse(half.begin(), half.end());
+  const int index = side == 0 ? lip.left_quarter : lip.right_quarter;
+  const auto quarter = static_cast<std::size_t>(
+      std::find(half.begin(), half.end(), head.vertex.at({lip.group, index})) - half.begin());
   const std::size_t columns = upper ? kLipCorner : kLipColumns - 1 - kLipCorner;
+  const std::size_t quarter_column = std::clamp<std::size_t>(
+      (2 * quarter * columns + half.size() - 1) / (2 * (half.size() - 1)), 1, columns - 1);
   for (std::size_t c = 0; c <= columns; ++c) {
-    const std::size_t i = (2 * c * (half.size() - 1) + columns) / (2 * columns);
+    std::size_t i = (2 * c * (half.size() - 1) + columns) / (2 * columns);
+    if (c == quarter_column && quarter < half.size()) i = quarter;
     row[upper ? c : kLipColumns - 1 - c] = half[i];
   }
 }
@@ -360,10 +367,10 @@ void open_mouth(const PointList& points, PlacedHead& head, Openings& out) {
   for (int side = 0; side < kSides; ++side) {
     fat::Lips& lips = out.lips[static_cast<std::size_t>(side)];
     lips.row.resize(2);
-    fill_row(head, outer_lower, {8, 2}, side, false, lips.row[0]);
-    fill_row(head, outer_upper, {8, 1}, side, true, lips.row[0]);
-    fill_row(head, lower, {2, 3}, side, false, lips.row[1]);
-    fill_row(head, upper, {2, 2}, side, true, lips.row[1]);
+    fill_row(head, outer_lower, kOuterLower, side, false, lips.row[0]);
+    fill_row(head, outer_upper, kOuterUpper, side, true, lips.row[0]);
+    fill_row(head, lower, kInnerLower, side, false, lips.row[1]);
+    fill_row(head, upper, kInnerUpper, side, true, lips.row[1]);
     lips.upper_outer = lips.lower_outer = 0;
     lips.upper_inner = lips.lower_inner = 1;
   }
