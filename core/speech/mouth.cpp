@@ -270,25 +270,32 @@ class LipContacts {
       firm_ = true;
       firm_away_ = away;
       sum_ = {};
-      shares_ = 0.0f;
+      shares_ = at_teeth_ = 0.0f;
     } else if (firm_) {
       return;
     }
     const float share = weight / (1.0f - weight + 1e-4f);
     for (int fap = 3; fap <= 60; ++fap) sum_.set(fap, sum_.get(fap) + share * shape.get(fap));
     shares_ += share;
+    if (s.sound->contact == Contact::lip_teeth) at_teeth_ += share;
     weight_ = std::max(weight_, weight);
   }
   void hold(face::FapFrame& io) {
     if (shares_ <= 0.0f) return;
     for (float& v : sum_.value) v /= shares_;
     hold_lips(io, sum_, weight_);
+    // A lip that is drawn in or spread by its neighbours, or taken along by the jaw, misses the
+    // teeth by a millimetre or two: here the sound has its own jaw and corners.
+    const float teeth = weight_ * at_teeth_ / shares_;
+    toward(io, 3, sum_.get(3), teeth);
+    for (const int fap : {6, 7, 12, 13, 53, 54, 59, 60})
+      toward(io, fap, sum_.get(fap), 0.85f * teeth);
   }
 
  private:
   float t_;
   face::FapFrame sum_;
-  float shares_ = 0.0f, weight_ = 0.0f, firm_away_ = 0.0f;
+  float shares_ = 0.0f, at_teeth_ = 0.0f, weight_ = 0.0f, firm_away_ = 0.0f;
   bool firm_ = false;
 };
 

@@ -42,11 +42,15 @@ float distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 class Lips {
  public:
   explicit Lips(agent::Person* person) : person_(*person) {
+    std::vector<std::uint32_t> finest;
+    for (const pack::Object& o : person_.view().objects) finest.push_back(o.max_triangle_count);
+    person_.set_levels(finest);
     person_.show(person_.rest_face(), body::BapFrame{}, Affine{}, 0.0f);  // Turns no head.
     const pack::View& view = person_.view();
     for (std::size_t o = 0; o < person_.object_count(); ++o)
       if (view.objects[o].role == pack::ObjectRole::head) head_ = o;
     const Vec3 lower = point(2, 3);
+    find_incisors();
     const scene::MeshView& mesh = person_.meshes()[head_];
     for (std::size_t i = 0; i < 3 * std::size_t{mesh.triangle_count}; i += 3) {
       Vec3 middle{0};
@@ -65,21 +69,36 @@ class Lips {
     gap = std::max(gap, point(2, 7).y - point(2, 9).y);
     return std::max(gap, point(2, 6).y - point(2, 8).y);
   }
-  // From the edge of the upper teeth to the nearest skin of the lower lip.
+  // From the edges of the two middle upper incisors to the nearest skin of the lower lip.
   float teeth_m() const {
-    const Vec3 edge = point(9, 10);
     float least = 1.0f;
-    for (const auto& t : lower_lip_)
-      least = std::min(least, distance_to_triangle(edge, at(t[0]), at(t[1]), at(t[2])));
+    for (const Vec3 edge : incisor_edges_)
+      for (const auto& t : lower_lip_)
+        least = std::min(least, distance_to_triangle(edge, at(t[0]), at(t[1]), at(t[2])));
     return least;
   }
 
  private:
+  // Upper teeth hang on the skull and stay where they are.
+  void find_incisors() {
+    const pack::FeaturePoint* p = pack::find_feature_point(person_.view(), 9, 10);
+    if (p == nullptr) throw std::runtime_error("this person has no upper teeth to measure");
+    const Vec3 edge = point(9, 10);
+    incisor_edges_.push_back(edge);
+    if (p->object == pack::kNoObject) return;
+    const scene::MeshView& teeth = person_.meshes()[p->object];
+    for (std::uint32_t v = 0; v < teeth.vertex_count; ++v) {
+      const Vec3 d = glm::abs(Vec3(teeth.dynamic[v].position_m) - edge);
+      if (d.x < 0.006f && d.y < 0.0008f && d.z < 0.003f)
+        incisor_edges_.push_back(teeth.dynamic[v].position_m);
+    }
+  }
   Vec3 point(int group, int index) const { return person_.feature_point_m(group, index); }
   Vec3 at(std::uint16_t vertex) const { return person_.meshes()[head_].dynamic[vertex].position_m; }
 
   agent::Person& person_;
   std::size_t head_ = 0;
+  std::vector<Vec3> incisor_edges_;
   std::vector<std::array<std::uint16_t, 3>> lower_lip_;
 };
 
