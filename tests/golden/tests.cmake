@@ -8,7 +8,8 @@ target_compile_definitions(caryatid_golden PRIVATE
 target_link_libraries(caryatid_golden PUBLIC caryatid_render caryatid_display GTest::gtest_main
   PRIVATE caryatid_flags)
 add_executable(golden_render ${CMAKE_CURRENT_LIST_DIR}/render_test.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/display_test.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/display_test.cpp ${CMAKE_CURRENT_LIST_DIR}/overlay_test.cpp)
+target_compile_definitions(golden_render PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 target_link_libraries(golden_render PRIVATE caryatid_golden caryatid_flags)
 add_test(NAME golden_render COMMAND golden_render)
 set_tests_properties(golden_render PROPERTIES ENVIRONMENT_MODIFICATION WAYLAND_DISPLAY=unset:)
