@@ -82,7 +82,7 @@ class Lips {
   // Upper teeth hang on the skull and stay where they are.
   void find_incisors() {
     const pack::FeaturePoint* p = pack::find_feature_point(person_.view(), 9, 10);
-    if (p == nullptr) throw std::runtime_error("this person has no upper teeth to measure");
+    if (p == nullptr) return;  // The built-in face has none: nothing is ever met there.
     const Vec3 edge = point(9, 10);
     incisor_edges_.push_back(edge);
     if (p->object == pack::kNoObject) return;
