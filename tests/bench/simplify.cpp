@@ -11,6 +11,8 @@
 #include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/mesh_io/repair.h"
 #include "assets/bake/simplify/distance.h"
+#include "assets/bake/simplify/object_history.h"
+#include "assets/bake/simplify/symmetry.h"
 #include "core/base/crc.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/simplify_peers.h"
@@ -165,21 +167,65 @@ Surface body_skin() {
   return bake::repair_surface(std::move(out), &repairs);
 }
 
-// The skin of the woman's head (8508 faces), its texture seams closed.
-Surface head_skin() {
+bake::Character woman() {
   const std::string folder = CARYATID_SOURCE_DIR "/assets/characters/";
   const bake::BaseHuman base(bake::BaseHuman::default_folder());
-  const bake::Character woman =
-      bake::build_character(bake::read_recipe(folder + "woman.toml"), base,
-                            bake::read_feature_points(folder + "feature_points.toml", base));
+  return bake::build_character(bake::read_recipe(folder + "woman.toml"), base,
+                               bake::read_feature_points(folder + "feature_points.toml", base));
+}
+
+// The skin of the woman's head (8508 faces), its texture seams closed.
+Surface head_skin() {
+  const bake::Character character = woman();
   Surface out;
-  for (const bake::Object& object : woman.objects) {
+  for (const bake::Object& object : character.objects) {
     if (object.role != pack::ObjectRole::head) continue;
     for (const Vec3& p : object.mesh.position_m) out.position.emplace_back(p);
     out.triangles = object.mesh.triangles;
   }
   bake::RepairReport repairs;
   return bake::repair_surface(std::move(out), &repairs);
+}
+
+// The part of an object's mesh that faces +z, or the other.
+Surface side_of(const bake::Mesh& mesh, bool front) {
+  Surface out;
+  for (const Vec3& p : mesh.position_m) out.position.emplace_back(p);
+  for (const bake::Triangle& t : mesh.triangles) {
+    const float z = mesh.normal[t[0]].z + mesh.normal[t[1]].z + mesh.normal[t[2]].z;
+    if ((z > -0.35f) == front) out.triangles.push_back(t);
+  }
+  return out;
+}
+
+// Millimetres, rms over each side of the original, at the coarsest level of `h`.
+void measure_sides(const bake::Mesh& mesh, const bake::ObjectHistory& h, const std::string& name,
+                   benchmark::State& state) {
+  Surface level;
+  for (std::uint32_t v = 0; v < h.base_vertex_count; ++v)
+    level.position.emplace_back(h.versions[v].position_m);
+  level.triangles = h.base_triangles;
+  const bake::SurfaceTree tree(level);
+  state.counters[name + "_front_mm"] = 1e3 * bake::one_sided(side_of(mesh, true), tree, 10, 1).rms;
+  state.counters[name + "_behind_mm"] =
+      1e3 * bake::one_sided(side_of(mesh, false), tree, 10, 1).rms;
+}
+
+// What importance by region gains: the head at N faces with all alike, and with what is seen from
+// the front counting more.
+void importance(benchmark::State& state) {
+  const bake::Character character = woman();
+  std::uint32_t o = 0;
+  while (character.objects[o].role != pack::ObjectRole::head) ++o;
+  const bake::Object& head = character.objects[o];
+  bake::ObjectOptions options;
+  options.base_triangles = static_cast<std::uint32_t>(state.range(0));
+  options.pose_weight = 10.0;
+  measure_sides(head.mesh, bake::simplify_object(head, options), "even", state);
+  options.importance = bake::importance_of_head(character, o);
+  bake::ObjectHistory weighted;
+  for ([[maybe_unused]] auto _ : state) weighted = bake::simplify_object(head, options);
+  measure_sides(head.mesh, weighted, "weighted", state);
 }
 
 bool register_all() {
@@ -189,6 +235,12 @@ bool register_all() {
   if (!bake::BaseHuman::missing(bake::BaseHuman::default_folder())) {
     add_mesh("head_skin", head_skin, true, levels);
     add_mesh("body_skin", body_skin, true, levels);
+    benchmark::RegisterBenchmark("simplify/importance", importance)
+        ->Arg(2141)
+        ->Arg(1307)
+        ->Arg(680)
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
   }
   if (const char* data = std::getenv("CARYATID_TEST_DATA"); data != nullptr)
     for (const char* name : {"spot", "teapot", "stanford-bunny"}) {
