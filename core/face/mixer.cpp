@@ -99,8 +99,8 @@ struct Tie {
 constexpr Tie kTies[] = {
     // Along the inner contour, from it to the outer one, along that; then the brows.
     {5, 10, 1, 180},   {5, 11, 1, 180},  {10, 12, 1, 560}, {11, 13, 1, 560}, {4, 8, 1, 150},
-    {4, 9, 1, 150},    {8, 12, -1, 350}, {9, 13, -1, 350}, {5, 52, 1, 150},  {10, 57, 1, 150},
-    {11, 58, 1, 150},  {4, 51, 1, 130},  {8, 55, 1, 130},  {9, 56, 1, 130},  {12, 59, 1, 150},
+    {4, 9, 1, 150},    {8, 12, -1, 350}, {9, 13, -1, 350}, {5, 52, 1, 80},   {10, 57, 1, 80},
+    {11, 58, 1, 80},   {4, 51, 1, 130},  {8, 55, 1, 130},  {9, 56, 1, 130},  {12, 59, 1, 150},
     {13, 60, 1, 150},  {6, 53, 1, 60},   {7, 54, 1, 60},   {52, 57, 1, 180}, {52, 58, 1, 180},
     {57, 59, 1, 560},  {58, 60, 1, 560}, {51, 55, 1, 150}, {51, 56, 1, 150}, {55, 59, -1, 350},
     {56, 60, -1, 350}, {31, 33, 1, 160}, {32, 34, 1, 160}, {33, 35, 1, 130}, {34, 36, 1, 130},
@@ -128,7 +128,9 @@ void seal_lips(FapFrame& frame) {
 }
 
 void keep_flesh_whole(FapFrame& frame) {
-  for (const Tie& tie : kTies) pull(tie, frame);
+  // Twice: what an outer contour pulls along must reach the far end of the inner one.
+  for (int pass = 0; pass < 2; ++pass)
+    for (const Tie& tie : kTies) pull(tie, frame);
 }
 
 void part_lips(FapFrame& frame) {

@@ -10,12 +10,13 @@ namespace caryatid::bake::fat {
 namespace {
 
 // Share of the mandible's motion at every skin vertex: the rig's, less what belongs to the lips.
-std::vector<float> jaw_weight(const Head& head) {
+// `spared` 1: the lips stay; 0: the lower one goes along.
+std::vector<float> jaw_weight(const Head& head, float spared) {
   const float scale = 1.0f / std::max(head.mandible[head.vertex_of(2, 1)], 0.5f);
   const std::vector<float> lips = lip_share(head);
   std::vector<float> weight(head.skin.size());
   for (std::uint32_t v = 0; v < weight.size(); ++v)
-    weight[v] = std::clamp(head.mandible[v] * scale, 0.0f, 1.0f) * (1.0f - lips[v]);
+    weight[v] = std::clamp(head.mandible[v] * scale, 0.0f, 1.0f) * (1.0f - spared * lips[v]);
   weight[head.vertex_of(2, 1)] = 1.0f;
   return weight;
 }
@@ -29,7 +30,7 @@ Vec3 turned(Vec3 p, Vec3 center, float angle) {
 }  // namespace
 
 void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out) {
-  const std::vector<float> weight = jaw_weight(head);
+  const std::vector<float> weight = jaw_weight(head, 1.0f);
   const Vec3 center = head.transforms.jaw_center_m;
   const auto drop = [&](float m) {
     const float angle = face::jaw_angle_rad(head.transforms, m);
@@ -42,15 +43,17 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
     return field;
   };
   add_movements(head, 3, reach(3), 3, drop, out);
-  const auto shift = [&](Vec3 axis) {
-    return [&head, &weight, axis](float m) {
+  // Lower teeth that come forward push the lower lip before them.
+  const std::vector<float> with_lip = jaw_weight(head, 0.15f);
+  const auto shift = [](const std::vector<float>& by, Vec3 axis) {
+    return [&by, axis](float m) {
       std::vector<Vec3> field;
-      for (const float w : weight) field.push_back(w * m * axis);
+      for (const float w : by) field.push_back(w * m * axis);
       return field;
     };
   };
-  add_movements(head, 14, reach(14), 1, shift({0, 0, 1}), out);
-  add_movements(head, 15, reach(15), 1, shift({-1, 0, 0}), out);
+  add_movements(head, 14, reach(14), 1, shift(with_lip, {0, 0, 1}), out);
+  add_movements(head, 15, reach(15), 1, shift(weight, {-1, 0, 0}), out);
 
   // Corrections: a lower lip that its own FAPs lower swings back with an open jaw.
   const Vec3 arm = head.place_of(2, 3) - center;
