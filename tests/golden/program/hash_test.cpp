@@ -17,8 +17,8 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0x175e1586fcbf181eu, kPoseHash = 0x18d89feb35823a52u,
-                        kDrawListHash = 0xa6d91ca2d0b57393u;
+constexpr std::uint64_t kJoyHash = 0xb7f44cec56e8cd83u, kPoseHash = 0x18d89feb35823a52u,
+                        kDrawListHash = 0x9b97e4c8ab23f21eu;
 
 class Hash : public testing::Test {
  protected:
