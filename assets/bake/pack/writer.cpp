@@ -174,9 +174,11 @@ void Writer::put_object(std::uint32_t index) {
     if (p.object == index) source.locked.push_back(p.vertex);
   ObjectOptions options;
   options.pose_weight = options_.pose_weight;
+  const double by_role = options_.base_fraction[static_cast<std::size_t>(source.role)];
+  const double fraction =
+      source.name == "body" ? std::max(by_role, options_.torso_fraction) : by_role;
   options.base_triangles =
-      static_cast<std::uint32_t>(options_.base_fraction[static_cast<std::size_t>(source.role)] *
-                                 static_cast<double>(source.mesh.triangles.size()));
+      static_cast<std::uint32_t>(fraction * static_cast<double>(source.mesh.triangles.size()));
   if (source.role == pack::ObjectRole::head)
     options.importance = importance_of_head(character_, index);
   ObjectHistory history = simplify_object(source, options);

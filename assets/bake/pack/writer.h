@@ -17,6 +17,8 @@ struct PackOptions {
   // (eyes, brows, lashes) keep more of it. Objects stop earlier where their locks do not allow as
   // little. Index is pack::ObjectRole: head, body, hair, clothes, eye, mouth, brow, lash.
   std::array<double, 8> base_fraction = {0.075, 0.10, 0.30, 0.18, 0.25, 0.12, 1.0, 0.6};
+  // Of the object "body": coarser, what skin is left beneath the clothes would poke through them.
+  double torso_fraction = 0.30;
   // Textures of the base part have at most so many texels a side; larger levels come later.
   std::uint32_t base_texture_side = 128;
   // Refinements arrive in so many stages, each about as many triangles as all before.
