@@ -19,7 +19,10 @@ class Scanout {
   Scanout() = default;
   Scanout(const Scanout&) = delete;
   Scanout& operator=(const Scanout&) = delete;
-  ~Scanout() { forget(); }
+  ~Scanout() {
+    forget();
+    drmModeFreeCrtc(before_);
+  }
 
   // Takes an output of `card`; its mode is set with the next picture. Remembers what the CRTC
   // showed before the first call.
