@@ -48,7 +48,8 @@ target_include_directories(golden_program SYSTEM PRIVATE /usr/include/stb)
 target_link_libraries(golden_program PRIVATE caryatid_agent caryatid_flags GTest::gmock
   GTest::gtest_main)
 target_compile_definitions(golden_program PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-  CARYATID_PROGRAM="$<TARGET_FILE:caryatid>")
+  CARYATID_PROGRAM="$<TARGET_FILE:caryatid>"
+  CARYATID_PACKS="${CMAKE_SOURCE_DIR}/build/host-release/packs")
 add_dependencies(golden_program caryatid)
 add_test(NAME golden_program COMMAND golden_program)
 set_tests_properties(golden_program PROPERTIES TIMEOUT 900)
