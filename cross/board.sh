@@ -29,7 +29,8 @@ packages=(cmake ninja-build pkg-config python3 mmdebstrap qemu-user-static ca-ce
 libraries=(libc6-dev libgles-dev libegl-dev libgbm-dev libdrm-dev libx11-dev libwayland-dev
   wayland-protocols libgpiod-dev libhidapi-dev libasound2-dev libespeak-ng-dev libglm-dev
   libtomlplusplus-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev
-  libeigen3-dev libcli11-dev libharfbuzz-dev libfribidi-dev libunibreak-dev)
+  libeigen3-dev libcli11-dev libharfbuzz-dev libfribidi-dev libunibreak-dev
+  libflac-dev libfreetype-dev)
 # For the emulated board: what its image holds beside the project's own package.
 board_packages=(systemd systemd-sysv udev kmod busybox-static linux-image-arm64 libegl1 libgles2
   libgl1-mesa-dri libegl-mesa0 libgbm1 libdrm2 libgpiod2 libhidapi-hidraw0 libx11-6

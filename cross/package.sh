@@ -41,6 +41,9 @@ package_of() {
     libespeak-ng.so.1) echo "libespeak-ng1 (>= 1.49.2)" ;;
     libpng16.so.16) [ "$release" = bookworm ] && echo libpng16-16 || echo libpng16-16t64 ;;
     libfreetype.so.6) echo libfreetype6 ;;
+    libz.so.1) echo zlib1g ;;
+    libFLAC.so.12) echo libflac12 ;;
+    libFLAC.so.14) echo libflac14 ;;
     libharfbuzz.so.0) echo libharfbuzz0b ;;
     libfribidi.so.0) echo libfribidi0 ;;
     libunibreak.so.1) echo libunibreak1 ;;
