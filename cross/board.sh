@@ -14,9 +14,10 @@ usage: cross/board.sh build [arm64|armhf] [bookworm|trixie] [CMAKE-ARGS]   cross
 Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
 ~/.cache/caryatid; bookworm has libgpiod 1.6, trixie libgpiod 2.
 The program is build/cross-ARCH-RELEASE/bin/caryatid.
-test needs what cross/host.sh build leaves (the pack, and this PC's caryatid to compare with), takes
-a quarter of an hour on two idle cores, and leaves pictures in build/board. A machine that is busy
-with other things gets more time by CARYATID_BOARD_PATIENCE=3.
+test needs what cross/host.sh build leaves (the pack, and this PC's caryatid to compare with) and
+leaves pictures in build/board. It aims at a quarter of an hour on two idle cores. A machine that is
+busy with other things gets more time to wait by CARYATID_BOARD_PATIENCE=3; what is promised to the
+deployer in seconds stays as it is.
 
 example: cross/board.sh unit armhf
 TEXT

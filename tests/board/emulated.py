@@ -263,7 +263,7 @@ class Test:
         self.board.run("kill -9 " + self.unit("MainPID"))
         back = wait_for("the built-in face", 120 * PATIENCE,
                         lambda: self.journal("built-in face on the screen", since), 1)[0]
-        check(back - since < 5.0 * PATIENCE,
+        check(back - since < 5.0,  # What is promised, on a busy machine too.
               f"killed: the built-in face is back {back - since:.1f} s later")
         self.wait_running(300)
 
