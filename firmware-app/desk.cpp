@@ -1,17 +1,19 @@
 #include "firmware-app/desk.h"
 
-#include <cstdio>
 #include <cstring>
 
 #include "core/agent/describe.h"
 #include "firmware-app/builtin.h"
 #include "firmware-app/pictures.h"
+#include "platform/log/log.h"
 
 namespace caryatid::app {
 namespace {
 
+using platform::Event;
+
 void print(const Messages& messages) {
-  for (const Message& m : messages.all()) std::fprintf(stderr, "caryatid: %s\n", m.line.c_str());
+  for (const Message& m : messages.all()) platform::log(Event::text_refused, "%s", m.line.c_str());
 }
 
 // Reads the pictures that a programme names, in their order; `take` gets each that is sound.
@@ -30,8 +32,8 @@ bool read_pictures(const std::string& config, const agent::Programme& programme,
       continue;
     }
     all = false;
-    std::fprintf(stderr, "caryatid: %s: %s (the page is shown without it)\n",
-                 files.full_name(name).c_str(), error.c_str());
+    platform::log(Event::text_refused, "%s: %s (the page is shown without it)",
+                  files.full_name(name).c_str(), error.c_str());
   }
   return all;
 }
@@ -50,14 +52,9 @@ bool Desk::compile(const std::string& config, CompiledProgramme* out) {
 
 bool Desk::open(const std::string& config) {
   CompiledProgramme compiled;
-  bool good = compile(config, &compiled);
+  const bool good = compile(config, &compiled);
   print(compiled.messages);
-  if (!good && !config.empty()) {
-    std::fputs("caryatid: the built-in programme stands in\n", stderr);
-    good = compile("", &compiled);
-  } else {
-    config_ = config;
-  }
+  config_ = config;
   compiled_ = std::move(compiled.block);
   return good;
 }
@@ -114,7 +111,7 @@ void Desk::reload(std::int64_t now_us, bool speaking) {
         break;
       case Reload::State::failed:
         new_bytes_ = 0;
-        std::fputs("caryatid: the changed texts are not used; the old ones go on\n", stderr);
+        platform::log(Event::text_refused, "the changed texts are not used; the old ones go on");
         break;
       case Reload::State::ready:
         break;
@@ -129,8 +126,8 @@ void Desk::adopt() {
   new_bytes_ = 0;
   const auto next = agent::read_programme(block, font_.header->crc, font_.glyphs.size());
   if (!next.ok()) {
-    std::fprintf(stderr, "caryatid: %s; the old texts go on\n",
-                 agent::refusal_text(static_cast<agent::ProgrammeRefusal>(next.status.detail)));
+    platform::log(Event::text_refused, "%s; the old texts go on",
+                  agent::refusal_text(static_cast<agent::ProgrammeRefusal>(next.status.detail)));
     return;
   }
   const agent::Programme& old = programme();
@@ -138,7 +135,7 @@ void Desk::adopt() {
   for (std::size_t b = 0; same && b < old.buttons.size(); ++b)
     same = next.value.text(next.value.buttons[b].name) == old.text(old.buttons[b].name);
   if (!same) {
-    std::fputs("caryatid: kiosk.toml has other buttons now; start again to use them\n", stderr);
+    platform::log(Event::text_refused, "kiosk.toml has other buttons now; start again to use them");
     return;
   }
   // Pictures are in the GPU since start; another in their place is not.
@@ -149,7 +146,7 @@ void Desk::adopt() {
   said_.clear();  // Its letters lie in the old block.
   guide_.take(next.value);
   slot_ = 1 - slot_;
-  std::fputs("caryatid: changed texts taken over\n", stderr);
+  platform::log(Event::text_taken, "changed texts taken over");
 }
 
 void Desk::complete(agent::SignboardInput* io_frame) const {

@@ -22,9 +22,9 @@ class Desk {
   // Bytes that take_memory() takes from the arena.
   static constexpr std::size_t kArenaBytes = 2 * kMaxProgrammeBytes + 64;
 
-  // Compiles the programme of `config` (empty: the built-in one) and says on stderr what is wrong
-  // with it. A kiosk.toml that can't be used is replaced by the built-in programme.
-  // False: even that is unusable, which is a fault of the build.
+  // Compiles the programme of `config` (empty: the built-in one) and logs what is wrong with it.
+  // False: it can't be used at all; open another one. The built-in one is refused by a fault of the
+  // build alone.
   bool open(const std::string& config);
   // Full names of the files that the programme was made of; none for the built-in one.
   const std::vector<std::string>& files_read() const { return files_read_; }
@@ -33,8 +33,8 @@ class Desk {
   // Moves the programme into memory of the agent. False: the arena is too small.
   bool take_memory(Arena& arena);
 
-  // Letters and pictures to the GPU. A picture that can't be used is said on stderr once; the page
-  // is shown without it. most_side: of the display, pixels.
+  // Letters and pictures to the GPU. A picture that can't be used is logged once; the page is shown
+  // without it. most_side: of the display, pixels.
   void load(platform::Renderer& renderer, std::uint32_t most_side);
 
   // Takes over changed texts, between two utterances. Once a frame; never waits; not for replays.

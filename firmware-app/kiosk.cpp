@@ -17,18 +17,24 @@
 #include "firmware-app/splash.h"
 #include "platform/buttons/scripted/scripted.h"
 #include "platform/clock/clock.h"
+#include "platform/log/log.h"
 
 namespace caryatid::app {
 namespace {
 
-const std::int64_t g_started_us = platform::monotonic_us();
 std::atomic<bool> g_stop{false};
 std::atomic<bool> g_flips_stopped{false}, g_gpu_reset{false};
 
 // Bytes of the pack that are read between two frames while it still loads.
 constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
 
-void complain(const std::string& line) { std::fprintf(stderr, "caryatid: %s\n", line.c_str()); }
+using platform::Event;
+
+// The program can't go on; always false.
+bool refuse(const std::string& line) {
+  platform::log(Event::start_refused, "%s", line.c_str());
+  return false;
+}
 
 // A bust has the joints of a whole skeleton, but nothing of it reaches the floor.
 bool has_legs(const pack::View& pack) {
@@ -88,12 +94,11 @@ bool Kiosk::open_person() {
   std::string error;
   if (!options_.pack.empty()) {
     if (pack_file_.open(options_.pack, &error) && load_base(&error)) return true;
-    complain(error + " (the built-in face stands in)");
+    platform::log(Event::pack_refused, "%s (the built-in face stands in)", error.c_str());
     pack_refused_ = true;
   }
   if (pack_file_.open_builtin(&error) && load_base(&error)) return true;
-  complain(error);
-  return false;
+  return refuse(error);
 }
 
 bool Kiosk::open_display() {
@@ -106,9 +111,7 @@ bool Kiosk::open_display() {
   if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
   if (options_.display == "window") d.kind = platform::DisplayKind::window;
   if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
-  if (platform::open_display(d, display_, error).ok()) return true;
-  complain(error.c_str());
-  return false;
+  return platform::open_display(d, display_, error).ok() || refuse(error.c_str());
 }
 
 bool Kiosk::open_renderer() {
@@ -118,19 +121,18 @@ bool Kiosk::open_renderer() {
           .ok()) {
     const platform::GpuCaps& gpu = renderer_->caps();
     if (display_ && display_->has_surface() && gpu.software)
-      std::fprintf(stderr, "caryatid: drawn by the CPU (%s): no driver of a GPU is in use\n",
-                   gpu.renderer.c_str());
+      platform::log(Event::software_gpu, "drawn by the CPU (%s): no driver of a GPU is in use",
+                    gpu.renderer.c_str());
     return true;
   }
-  complain(error.c_str());
-  return false;
+  return refuse(error.c_str());
 }
 
 // After a GPU reset or when the driver has lost its flips: the arena still holds all that the GPU
 // had. Allocates, as every start does. A board that needs this again and again must start anew.
 bool Kiosk::reopen_screen() {
   constexpr int kOften = 3;
-  std::fputs("caryatid: the screen or the GPU was lost; opening it again\n", stderr);
+  platform::log(Event::screen_lost, "the screen or the GPU was lost; opening it again");
   renderer_.reset();  // Its objects live in the display's context.
   display_.reset();
   if (++reopened_ > kOften || !open_display() || !open_renderer()) return false;
@@ -145,14 +147,12 @@ bool Kiosk::open_outputs() {
     const double pictures = seconds * options_.target_fps / options_.frames_every + 1.0;
     if (!frames_out_.start(options_.frames_out, options_.frames_every, renderer_->width(),
                            renderer_->height(), static_cast<std::uint32_t>(pictures))) {
-      complain(options_.frames_out + ": can't be made; name a folder that can be written");
-      return false;
+      return refuse(options_.frames_out + ": can't be made; name a folder that can be written");
     }
   }
-  if (!options_.metrics.empty() && !metrics_.open(options_.metrics.c_str())) {
-    complain(options_.metrics + ": " + std::strerror(errno) + "; name a file that can be written");
-    return false;
-  }
+  if (!options_.metrics.empty() && !metrics_.open(options_.metrics.c_str()))
+    return refuse(options_.metrics + ": " + std::strerror(errno) +
+                  "; name a file that can be written");
   return true;
 }
 
@@ -162,48 +162,44 @@ void Kiosk::fix_levels() {
 }
 
 // Once for each: how long a visitor looked at nothing.
-void Kiosk::tell_picture(const char* of_what) const {
-  if (!display_ || !display_->has_surface() || options_.virtual_clock) return;
-  std::fprintf(stderr, "caryatid: %s on the screen %.2f s after the program's start\n", of_what,
-               static_cast<double>(platform::monotonic_us() - g_started_us) * 1e-6);
+void Kiosk::tell_picture(const char* of_what, double* out_s) {
+  if (options_.virtual_clock) return;
+  *out_s = process_age_s();
+  if (!display_ || !display_->has_surface()) return;
+  timespec computing{};  // On a busy machine the smaller part.
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &computing);
+  platform::log(
+      Event::picture_shown,
+      "%s on the screen %.2f s after the program's start, %.2f s of computing", of_what, *out_s,
+      static_cast<double>(computing.tv_sec) + 1e-9 * static_cast<double>(computing.tv_nsec));
+}
+
+// A recorded run must not depend on what is wired to this machine.
+bool Kiosk::open_devices() {
+  if (options_.virtual_clock) return true;
+  std::string error;
+  if (!panel_.open(config_, &error)) return refuse(error);
+  if (!notifier_.open().ok())
+    platform::log(Event::unsupervised, "NOTIFY_SOCKET is no socket; running unsupervised");
+  (void)thermal_.open();  // A board without sensors counts as cool.
+  if (!options_.control.empty()) player_.reserve();
+  return service_.open(options_, &error) || refuse(error);
 }
 
 bool Kiosk::start() {
+  // Nothing comes before the first picture. A replay shows its own frames alone.
+  if (!open_display()) return false;
+  if (display_ && !options_.virtual_clock &&
+      show_builtin_picture(*display_, options_.rotate_degrees))
+    tell_picture("built-in face", &start_times_.picture_s);
   if (!read_config()) return false;
   std::string error;
-  if (!options_.play.empty() && !player_.open(options_.play, &error)) {
-    complain(error);
-    return false;
-  }
-  if (!open_display()) return false;
-  // Reading a pack takes a second or two on a board; a replay shows its own frames alone.
-  if (display_ && !options_.pack.empty() && !options_.virtual_clock &&
-      show_builtin_face(*display_, options_.rotate_degrees))
-    tell_picture("built-in face");
+  if (!options_.play.empty() && !player_.open(options_.play, &error)) return refuse(error);
   if (!open_person()) return false;
-  if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) {
-    complain(error);
-    return false;
-  }
-  if (!desk_.take_memory(memory_.arena())) {
-    complain("the built-in programme is damaged; build again");
-    return false;
-  }
-  if (!open_renderer() || !open_outputs()) return false;
-  // A recorded run must not depend on what is wired to this machine.
-  if (!options_.virtual_clock) {
-    if (!panel_.open(config_, &error)) {
-      complain(error);
-      return false;
-    }
-    if (!notifier_.open().ok()) complain("NOTIFY_SOCKET is no socket; running unsupervised");
-    (void)thermal_.open();  // A board without sensors counts as cool.
-    if (!options_.control.empty()) player_.reserve();
-    if (!service_.open(options_, &error)) {
-      complain(error);
-      return false;
-    }
-  }
+  if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) return refuse(error);
+  if (!desk_.take_memory(memory_.arena()))
+    return refuse("the built-in programme is damaged; build again");
+  if (!open_renderer() || !open_outputs() || !open_devices()) return false;
   care_ = ScreenCare(config_.screen);
   agent_ = std::make_unique<agent::Agent>(options_.seed);
   open_speaker();
@@ -243,7 +239,7 @@ bool Kiosk::run() {
                              : static_cast<double>(platform::monotonic_us() - began_us) * 1e-6;
     if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
     ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
-    if (ok && frame_number_ == 0) tell_picture("person");
+    if (ok && frame_number_ == 0) tell_picture("person", &start_times_.person_s);
     watch(ok);
     last_s = now_s;
     ++frame_number_;
@@ -259,7 +255,9 @@ bool Kiosk::run() {
   service_.close();
   report_.frames = frame_number_;
   report_.allocations = allocations_since_seal();
-  if (!frames_out_.finish()) complain(options_.frames_out + ": the contact sheet can't be written");
+  if (!frames_out_.finish())
+    platform::log(Event::file_refused, "%s: the contact sheet can't be written",
+                  options_.frames_out.c_str());
   metrics_.close();
   return ok;
 }
@@ -298,13 +296,13 @@ void Kiosk::load_more() {
   if (refinement_ended_) return;
   const Status status = pack_file_.feed(kLoadBytesPerFrame, &loader_);
   if (!status.ok()) {
-    std::fprintf(stderr, "caryatid: %s: %s (shown as far as it is whole)\n", pack_file_.name(),
-                 pack::refusal_text(static_cast<pack::Refusal>(status.detail)));
+    platform::log(Event::pack_damaged, "%s: %s (shown as far as it is whole)", pack_file_.name(),
+                  pack::refusal_text(static_cast<pack::Refusal>(status.detail)));
     refinement_ended_ = true;
   }
   if (!person_.refine(loader_).ok())
-    std::fprintf(stderr, "caryatid: %s: a refinement is damaged (shown as far as it is whole)\n",
-                 pack_file_.name());
+    platform::log(Event::pack_damaged, "%s: a refinement is damaged (shown as far as it is whole)",
+                  pack_file_.name());
   for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
     if (!texture_whole_[t] && loader_.texture_complete(t)) {
       texture_whole_[t] = true;
@@ -496,8 +494,8 @@ bool Kiosk::draw(const Tick& tick) {
   if (frames_out_.wants(frame_number_)) {
     if (renderer_->read_back(frames_out_.buffer()).ok() &&
         !frames_out_.add(frame_number_, tick.time_s)) {
-      std::fprintf(stderr, "caryatid: %s: a picture can't be written; make room\n",
-                   options_.frames_out.c_str());
+      platform::log(Event::file_refused, "%s: a picture can't be written; make room",
+                    options_.frames_out.c_str());
       return false;
     }
   }
@@ -552,12 +550,13 @@ void Kiosk::measure(const Tick& tick) {
   m.speech = speech_metrics();
   if (pressed_us_ != 0 && visible() && !options_.virtual_clock)
     m.reaction_ms = static_cast<double>((display_ ? flip_.time_us : now_us) - pressed_us_) * 1e-3;
+  if (frame_number_ == 1) m.start = start_times_;
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();
   report_.late_frames += m.late ? 1 : 0;
   if (!metrics_.write(m, person_.view()))
-    std::fprintf(stderr, "caryatid: %s: can't be written any more; make room\n",
-                 options_.metrics.c_str());
+    platform::log(Event::file_refused, "%s: can't be written any more; make room",
+                  options_.metrics.c_str());
 }
 
 // Where the arena goes, a line a section.
@@ -586,7 +585,7 @@ bool Kiosk::check(const Options& options) {
   Kiosk kiosk(options);
   std::string error;
   bool ok = kiosk.load_config(&error);
-  if (!ok) complain(error);
+  if (!ok) platform::log(Event::config_refused, "%s", error.c_str());
   if (ok) ok = Desk::check(options.config);
   if (!ok || !kiosk.read_script()) return false;
   if (!options.pack.empty()) {
@@ -603,7 +602,7 @@ bool Kiosk::check(const Options& options) {
     }
   }
   if (ok && !options.play.empty()) ok = kiosk.player_.open(options.play, &error);
-  if (!ok) complain(error);
+  if (!ok) platform::log(Event::pack_refused, "%s", error.c_str());
   if (ok) std::puts("caryatid: configuration and pack are sound");
   if (ok && !options.pack.empty()) kiosk.print_memory();
   return ok;

@@ -28,6 +28,7 @@
 #include "firmware-app/screen_care.h"
 #include "firmware-app/service.h"
 #include "firmware-app/speaker.h"
+#include "firmware-app/start_times.h"
 #include "platform/buttons/buttons.h"
 #include "platform/display/display.h"
 #include "platform/render/render.h"
@@ -50,8 +51,8 @@ class Kiosk {
  public:
   explicit Kiosk(const Options& options) : options_(options) {}
 
-  // Opens everything that may allocate, then seals memory. False: a line went to stderr and there
-  // is nothing to run; a pack that can't be used is no such case, the built-in face stands in.
+  // Opens everything that may allocate, then seals memory. False: a line was logged and there is
+  // nothing to run; a pack that can't be used is no such case, the built-in face stands in.
   bool start();
   // Runs until the duration ends, the window closes or request_stop(). False on a lost display.
   bool run();
@@ -75,6 +76,7 @@ class Kiosk {
   };
 
   bool read_config();
+  bool use_config(const std::string& config);
   bool load_config(std::string* out_error);
   bool read_script();
   bool open_person();
@@ -82,7 +84,8 @@ class Kiosk {
   bool open_display();
   bool open_renderer();
   bool reopen_screen();
-  void tell_picture(const char* of_what) const;
+  bool open_devices();
+  void tell_picture(const char* of_what, double* out_s);
   bool open_outputs();
   void open_speaker();
   bool frame(const Tick& tick);
@@ -167,6 +170,7 @@ class Kiosk {
   std::uint64_t frame_number_ = 0, presses_ = 0;
   double last_time_s_ = 0.0;
   std::int64_t last_frame_us_ = 0;
+  StartTimes start_times_;
   RunReport report_;
 };
 

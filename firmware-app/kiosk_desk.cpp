@@ -2,8 +2,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "firmware-app/builtin.h"
@@ -14,11 +12,6 @@
 #include "platform/log/log.h"
 
 namespace caryatid::app {
-namespace {
-
-void complain(const std::string& line) { std::fprintf(stderr, "caryatid: %s\n", line.c_str()); }
-
-}  // namespace
 
 // False: one line in out_error; the built-in configuration is in place then.
 bool Kiosk::load_config(std::string* out_error) {
@@ -36,23 +29,34 @@ bool Kiosk::load_config(std::string* out_error) {
   return false;
 }
 
+bool Kiosk::use_config(const std::string& config) {
+  options_.config = config;
+  std::string error;
+  const bool good = load_config(&error);
+  if (!good) platform::log(platform::Event::config_refused, "%s", error.c_str());
+  return good && desk_.open(config);
+}
+
+// What was asked for, else what worked last, else what is built in.
 bool Kiosk::read_config() {
   const LastGood last(options_.virtual_clock ? std::string() : options_.state);
-  std::string error;
-  if (!load_config(&error)) {
+  if (!options_.config.empty()) {
+    const std::string wanted = options_.config;
+    if (use_config(wanted)) {
+      if (!last.keep(wanted, desk_.files_read()))
+        platform::log(platform::Event::file_refused,
+                      "%s: the configuration can't be kept; make room", options_.state.c_str());
+      return read_script();
+    }
     const std::string kept = last.config();
-    platform::log(platform::Event::config_refused, "%s (%s stands in)", error.c_str(),
-                  kept.empty() ? "the built-in programme" : "the one that worked last");
-    options_.config = kept;
-    if (!kept.empty() && !load_config(&error)) options_.config.clear();
-  } else if (!options_.config.empty() && desk_.open(options_.config)) {
-    if (!last.keep(options_.config, desk_.files_read()))
-      platform::log(platform::Event::file_refused, "%s: the configuration can't be kept; make room",
-                    options_.state.c_str());
-    return read_script();
+    const bool stands_in = !kept.empty() && use_config(kept);
+    platform::log(platform::Event::config_refused, "%s: not used; %s stands in", wanted.c_str(),
+                  stands_in ? "the configuration that worked last" : "the built-in programme");
+    if (stands_in) return read_script();
   }
-  if (desk_.open(options_.config)) return read_script();
-  complain("the built-in programme or its letters are damaged; build again");
+  if (use_config("")) return read_script();
+  platform::log(platform::Event::start_refused,
+                "the built-in programme or its letters are damaged; build again");
   return false;
 }
 
@@ -63,11 +67,11 @@ bool Kiosk::read_script() {
   auto script = std::make_unique<platform::ScriptedButtons>();
   const auto number_of = [this](std::string_view name) { return config_.buttons.find(name) + 1; };
   if (!files.read(files.config(), 1u << 20, &text, &error)) {
-    complain(options_.script + ": " + error);
+    platform::log(platform::Event::start_refused, "%s: %s", options_.script.c_str(), error.c_str());
     return false;
   }
   if (!script->parse(text, options_.script, number_of, &error)) {
-    complain(error);
+    platform::log(platform::Event::start_refused, "%s", error.c_str());
     return false;
   }
   script_ = std::move(script);

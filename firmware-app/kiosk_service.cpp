@@ -69,6 +69,7 @@ void Kiosk::play(std::string_view file, platform::ControlReply& reply) {
 KioskStatus Kiosk::status() const {
   KioskStatus s;
   s.uptime_s = report_.seconds;
+  s.start = start_times_;
   s.frames = frame_number_;
   s.late_frames = report_.late_frames;
   s.presses = presses_;

@@ -45,6 +45,8 @@ bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
   else
     std::fprintf(file_, "\"gpu_ms\":%.3f,", m.gpu_ms);
   if (m.reaction_ms >= 0.0) std::fprintf(file_, "\"reaction_ms\":%.3f,", m.reaction_ms);
+  if (m.start.picture_s >= 0.0) std::fprintf(file_, "\"picture_s\":%.3f,", m.start.picture_s);
+  if (m.start.person_s >= 0.0) std::fprintf(file_, "\"person_s\":%.3f,", m.start.person_s);
   std::fprintf(file_, "\"late\":%s,\"triangles\":%u,\"lod\":{", m.late ? "true" : "false",
                m.triangles);
   const std::size_t objects = std::min(m.lod.size(), pack.objects.size());

@@ -6,6 +6,7 @@
 
 #include "core/emotion/emotion.h"
 #include "core/pack/view.h"
+#include "firmware-app/start_times.h"
 
 namespace caryatid::app {
 
@@ -34,6 +35,7 @@ struct FrameMetrics {
   int shading = 0;
   emotion::Emotion emotion = emotion::Emotion::calm;
   SpeechMetrics speech;
+  StartTimes start;  // Told once; negative: not in this frame.
   std::uint64_t allocations_since_seal = 0;
   std::uint64_t arena_bytes_used = 0;
 };

@@ -116,12 +116,17 @@ bool decode_picture(std::string_view bytes, std::uint32_t most_side, Picture* ou
   const std::uint32_t th = power_of_two_from(static_cast<std::uint32_t>(h), most_side);
   out->texture_width = static_cast<std::uint16_t>(tw);
   out->texture_height = static_cast<std::uint16_t>(th);
-  std::vector<unsigned char> fitted(std::size_t{4} * tw * th);
-  stbir_resize_uint8_srgb(rgba.get(), w, h, 0, fitted.data(), static_cast<int>(tw),
-                          static_cast<int>(th), 0, 4, STBIR_ALPHA_CHANNEL_NONE, 0);
+  std::vector<unsigned char> fitted;
+  const unsigned char* pixels = rgba.get();
+  if (tw != out->width || th != out->height) {
+    fitted.resize(std::size_t{4} * tw * th);
+    stbir_resize_uint8_srgb(rgba.get(), w, h, 0, fitted.data(), static_cast<int>(tw),
+                            static_cast<int>(th), 0, 4, STBIR_ALPHA_CHANNEL_NONE, 0);
+    pixels = fitted.data();
+  }
   out->texels.resize(std::size_t{tw} * th);
   for (std::size_t p = 0; p < out->texels.size(); ++p) {
-    const unsigned char* at = &fitted[4 * p];
+    const unsigned char* at = &pixels[4 * p];
     const auto step = [](unsigned value, unsigned most) { return (value * most + 127u) / 255u; };
     out->texels[p] =
         static_cast<std::uint16_t>(step(at[0], 31) << 11 | step(at[1], 63) << 5 | step(at[2], 31));

@@ -13,6 +13,7 @@
 
 #include "firmware-app/builtin.h"
 #include "firmware-app/texts/compile.h"
+#include "platform/log/log.h"
 
 extern char** environ;
 
@@ -85,7 +86,8 @@ void Reload::spawn(std::int64_t now_us) {
   bytes_ = 0;
   limit_us_ = now_us + kLimit_us;
   if (why == 0) return;
-  std::fputs("caryatid: changed texts can't be compiled now; start again to use them\n", stderr);
+  platform::log(platform::Event::text_refused,
+                "changed texts can't be compiled now; start again to use them");
   child_ = -1;
   (void)finish(false);
 }
@@ -117,7 +119,7 @@ int compile_to_stdout(const std::string& config) {
   ProgrammeFiles files(config, builtin_programme());
   const CompiledProgramme compiled = compile_programme(files, font.value);
   for (const Message& m : compiled.messages.all())
-    std::fprintf(stderr, "caryatid: %s\n", m.line.c_str());
+    platform::log(platform::Event::text_refused, "%s", m.line.c_str());
   if (compiled.messages.any_wrong() || compiled.block.empty()) return 1;
   const std::size_t n = std::fwrite(compiled.block.data(), 1, compiled.block.size(), stdout);
   return n == compiled.block.size() && std::fflush(stdout) == 0 ? 0 : 1;

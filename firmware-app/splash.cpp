@@ -2,58 +2,10 @@
 
 #include <string>
 
-#include "core/agent/person.h"
-#include "core/face/mixer.h"
-#include "core/scene/camera.h"
-#include "core/scene/compose.h"
-#include "firmware-app/memory.h"
-#include "firmware-app/pack_file.h"
+#include "firmware-app/builtin.h"
+#include "firmware-app/pictures.h"
 
 namespace caryatid::app {
-namespace {
-
-// Some hundred kilobytes; lives for one picture.
-struct BuiltinFace {
-  Memory memory;
-  PackFile file;
-  pack::Loader loader;
-  agent::Person person;
-  scene::DrawList list;
-
-  bool load();
-  bool compose(float aspect, std::uint32_t turn_degrees);
-};
-
-bool BuiltinFace::load() {
-  std::string ignored;
-  if (!file.open_builtin(&ignored)) return false;
-  const pack::PackHeader& h = file.header();
-  if (!memory.map(std::max(h.arena_bytes, h.image_bytes) + 4096)) return false;
-  const auto image = memory.arena().take<Vec4>((h.image_bytes + sizeof(Vec4) - 1) / sizeof(Vec4));
-  if (!loader.begin(h, std::as_writable_bytes(image)).ok()) return false;
-  while (!file.exhausted())
-    if (!file.feed(65536, &loader).ok()) return false;
-  return person.start(loader.view(), memory.arena()).ok() && person.refine(loader).ok();
-}
-
-bool BuiltinFace::compose(float aspect, std::uint32_t turn_degrees) {
-  const pack::View& view = person.view();
-  face::MixJob calm;
-  calm.rest = &person.rest_face();
-  calm.limits = &person.limits();
-  person.show(calm.run(), body::BapFrame{}, Affine{}, 0.0f);
-  scene::ComposeJob job;
-  job.pack = &view;
-  job.meshes = person.meshes();
-  job.joints = person.joints();
-  job.camera = scene::make_camera(scene::framing(scene::View::head, scene::subject_of(view)),
-                                  aspect, turn_degrees);
-  if (!job.run(&list).ok()) return false;
-  person.collect_patches(&list.patches);
-  return true;
-}
-
-}  // namespace
 
 Status open_renderer(platform::Display* display, const pack::View& pack, bool base_only,
                      std::uint32_t width, std::uint32_t height,
@@ -74,16 +26,13 @@ Status open_renderer(platform::Display* display, const pack::View& pack, bool ba
   return platform::open_gles_renderer(pack, base_only, options, out, out_error);
 }
 
-bool show_builtin_face(platform::Display& display, std::uint32_t turn_degrees) {
-  const auto face = std::make_unique<BuiltinFace>();
-  std::unique_ptr<platform::Renderer> renderer;
-  platform::ErrorLine ignored;
-  if (!face->load() ||
-      !open_renderer(&display, face->person.view(), false, 0, 0, renderer, ignored).ok())
+bool show_builtin_picture(platform::Display& display, std::uint32_t turn_degrees) {
+  Picture picture;
+  std::string ignored;
+  if (!display.has_surface() || !decode_picture(builtin_picture(), 1024, &picture, &ignored))
     return false;
-  const float aspect =
-      static_cast<float>(renderer->width()) / static_cast<float>(renderer->height());
-  return face->compose(aspect, turn_degrees) && renderer->draw(face->list).ok() &&
+  const platform::Still still{picture.texture_width, picture.texture_height, picture.texels};
+  return platform::draw_still(still, display.width(), display.height(), turn_degrees).ok() &&
          display.present().ok();
 }
 

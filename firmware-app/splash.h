@@ -1,5 +1,5 @@
 #pragma once
-// The built-in face on the screen while the pack is still being read: no black gap after power-on.
+// The built-in picture on the screen before anything else is done: no black gap after power-on.
 #include <cstdint>
 #include <memory>
 
@@ -15,8 +15,9 @@ Status open_renderer(platform::Display* display, const pack::View& pack, bool ba
                      std::uint32_t width, std::uint32_t height,
                      std::unique_ptr<platform::Renderer>& out, platform::ErrorLine& out_error);
 
-// Draws the calm built-in face once and presents it; all that this took is given back. False: it
-// could not be drawn, which the person's own renderer will explain better.
-bool show_builtin_face(platform::Display& display, std::uint32_t turn_degrees);
+// Draws the built-in picture of her face and presents it; all that this took is given back. It
+// costs one small program, where a person costs dozens and her pack. False: there is no surface, or
+// it could not be drawn, which the person's own renderer will explain better.
+bool show_builtin_picture(platform::Display& display, std::uint32_t turn_degrees);
 
 }  // namespace caryatid::app

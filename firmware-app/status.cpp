@@ -43,6 +43,8 @@ std::string_view format_json(const KioskStatus& s, std::span<char> out) {
   Text t(out);
   t.add("{\"uptime_s\":%.1f,\"starts\":%llu,\"unclean_start\":%s,\"frames\":%llu,", s.uptime_s,
         whole(s.starts), boolean(s.unclean_start), whole(s.frames));
+  if (s.start.picture_s >= 0.0) t.add("\"picture_s\":%.3f,", s.start.picture_s);
+  if (s.start.person_s >= 0.0) t.add("\"person_s\":%.3f,", s.start.person_s);
   t.add("\"late_frames\":%llu,\"presses\":%llu,\"triangles\":%u,\"cpu_ms\":%.3f,",
         whole(s.late_frames), whole(s.presses), s.triangles, s.cpu_ms);
   t.add("\"emotion\":\"%s\",", emotion::kEmotionNames[emotion::index_of(s.emotion)].data());
@@ -73,6 +75,8 @@ std::string_view format_prometheus(const KioskStatus& s, std::span<char> out) {
   count("late_frames_total", s.late_frames);
   count("presses_total", s.presses);
   count("allocations_after_seal_total", s.allocations_since_seal);
+  if (s.start.picture_s >= 0.0) gauge("start_picture_seconds", s.start.picture_s);
+  if (s.start.person_s >= 0.0) gauge("start_person_seconds", s.start.person_s);
   gauge("triangles", s.triangles);
   gauge("frame_cpu_seconds", s.cpu_ms * 1e-3);
   if (s.has_temperature) gauge("temperature_celsius", s.temperature_celsius);

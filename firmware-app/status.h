@@ -7,11 +7,13 @@
 #include <string_view>
 
 #include "core/emotion/emotion.h"
+#include "firmware-app/start_times.h"
 
 namespace caryatid::app {
 
 struct KioskStatus {
   double uptime_s = 0.0;
+  StartTimes start;
   std::uint64_t starts = 0;    // Of the program on this board, where a state folder remembers them.
   bool unclean_start = false;  // The last run ended without a goodbye: a crash or a power cut.
   std::uint64_t frames = 0, late_frames = 0, presses = 0;

@@ -25,7 +25,7 @@ include(platform/display/wayland/backend.cmake)
 include(platform/display/gbm/backend.cmake)
 add_library(caryatid_display STATIC ${display_sources})
 target_compile_definitions(caryatid_display PRIVATE ${display_definitions})
-target_link_libraries(caryatid_display PUBLIC caryatid_base
+target_link_libraries(caryatid_display PUBLIC caryatid_base caryatid_board
   PRIVATE ${display_libraries} caryatid_board_flags)
 
 file(GLOB render_sources CONFIGURE_DEPENDS platform/render/*.cpp platform/render/null/*.cpp

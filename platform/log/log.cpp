@@ -19,18 +19,22 @@ struct Kind {
   const char* name;
   int priority;  // As syslog: 3 error, 4 warning, 5 notice.
 };
-constexpr std::array<Kind, 12> kKinds = {{{Event::start_refused, "start-refused", 3},
+constexpr std::array<Kind, 16> kKinds = {{{Event::start_refused, "start-refused", 3},
                                           {Event::pack_refused, "pack-refused", 3},
                                           {Event::pack_damaged, "pack-damaged", 4},
                                           {Event::config_refused, "config-refused", 3},
                                           {Event::screen_lost, "screen-lost", 4},
                                           {Event::screen_found, "screen-found", 5},
+                                          {Event::picture_shown, "picture-shown", 5},
+                                          {Event::software_gpu, "software-gpu", 4},
                                           {Event::button_lost, "button-lost", 4},
                                           {Event::button_found, "button-found", 5},
                                           {Event::speech_trouble, "speech-trouble", 4},
                                           {Event::unsupervised, "unsupervised", 4},
                                           {Event::file_refused, "file-refused", 4},
-                                          {Event::state_refused, "state-refused", 4}}};
+                                          {Event::state_refused, "state-refused", 4},
+                                          {Event::text_refused, "text-refused", 4},
+                                          {Event::text_taken, "text-taken", 5}}};
 
 const Kind& kind_of(Event event) { return kKinds[static_cast<std::size_t>(event)]; }
 

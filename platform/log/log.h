@@ -15,12 +15,16 @@ enum class Event : std::uint8_t {
   config_refused,  // An older configuration stands in.
   screen_lost,     // It, or the GPU, is being opened again.
   screen_found,    // Or opened at start.
+  picture_shown,   // The first of the built-in picture, and of the person.
+  software_gpu,    // No driver of a GPU is in use.
   button_lost,     // A device of buttons is away,
   button_found,    // or back.
   speech_trouble,  // Captions go on.
   unsupervised,    // systemd's socket can't be used.
   file_refused,    // Status, state, metrics or pictures can't be written.
   state_refused,   // The remembered state is damaged.
+  text_refused,    // A text or picture of the programme; what stands in for it is said.
+  text_taken,      // A changed one is used from now on.
 };
 
 // The name as it stands in CARYATID_EVENT, "pack-damaged".

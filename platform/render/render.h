@@ -81,6 +81,18 @@ Status open_gles_renderer(const pack::View& pack, bool base_only, const RenderOp
 Status open_null_renderer(const pack::View& pack, const RenderOptions& options,
                           std::unique_ptr<Renderer>& out);
 
+// One picture on the whole surface of a display, before there is a renderer: a single small program
+// and nothing else, so that it stands there at once. RGB565, first row on top; as high as the
+// display, which cuts its sides or, where it is wider, repeats its outermost columns.
+struct Still {
+  std::uint16_t width = 0, height = 0;
+  std::span<const std::uint16_t> rgb565;
+};
+// turn_degrees: of the picture, clockwise, by quarters. Waits until the GPU has drawn it.
+// unsupported (program), out_of_capacity (memory), invalid_argument (texture): too few pixels.
+Status draw_still(const Still& still, std::uint32_t display_width, std::uint32_t display_height,
+                  std::uint32_t turn_degrees);
+
 // Whether an item can be drawn: object, material and bones exist. Shared by the backends.
 bool item_is_valid(const scene::DrawList& list, const pack::View& pack,
                    const scene::DrawItem& item);

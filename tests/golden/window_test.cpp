@@ -69,6 +69,22 @@ class WindowStudio : public Studio {
     return events;
   }
 
+  // The window's pixels.
+  Image seen() {
+    XSync(x_, False);
+    Image picture{kWidth, kHeight, {}};
+    XImage* shot = XGetImage(x_, window_, 0, 0, kWidth, kHeight, AllPlanes, ZPixmap);
+    if (shot == nullptr) return picture;
+    for (int y = 0; y < static_cast<int>(kHeight); ++y)
+      for (int x = 0; x < static_cast<int>(kWidth); ++x) {
+        const unsigned long p = XGetPixel(shot, x, y);
+        for (const unsigned shift : {16u, 8u, 0u})
+          picture.rgb.push_back(static_cast<std::uint8_t>(p >> shift & 255u));
+      }
+    XDestroyImage(shot);
+    return picture;
+  }
+
   ::Display* x_ = nullptr;
   ::Window window_ = 0;
 };
@@ -76,18 +92,35 @@ class WindowStudio : public Studio {
 TEST_F(WindowStudio, ShowsWhatTheOffscreenRendererDraws) {
   ASSERT_TRUE(renderer_->draw(pack_.list()).ok());
   ASSERT_TRUE(display_->present().ok());
-  XSync(x_, False);
-  XImage* shot = XGetImage(x_, window_, 0, 0, kWidth, kHeight, AllPlanes, ZPixmap);
-  ASSERT_NE(shot, nullptr);
-  Image seen{kWidth, kHeight, {}};
-  for (int y = 0; y < static_cast<int>(kHeight); ++y)
-    for (int x = 0; x < static_cast<int>(kWidth); ++x) {
-      const unsigned long p = XGetPixel(shot, x, y);
-      for (const unsigned shift : {16u, 8u, 0u})
-        seen.rgb.push_back(static_cast<std::uint8_t>(p >> shift & 255u));
+  expect_golden(seen(), "materials_per_pixel");
+}
+
+// A still of four quarters: black, green; red, blue. Its upper left corner goes clockwise, and it
+// leaves the renderer's pictures as they were.
+TEST_F(WindowStudio, AStillStandsAsItIsTurned) {
+  constexpr std::uint16_t kBlack = 0, kGreen = 0x07e0, kRed = 0xf800, kBlue = 0x001f;
+  const std::array<std::uint16_t, 4> texels{kBlack, kGreen, kRed, kBlue};
+  const platform::Still still{2, 2, texels};
+  const std::size_t near_x = 2, far_x = kWidth - 3, near_y = 2, far_y = kHeight - 3;
+  const std::size_t black_at[4][2] = {
+      {near_x, near_y}, {far_x, near_y}, {far_x, far_y}, {near_x, far_y}};
+  for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+    ASSERT_TRUE(platform::draw_still(still, kWidth, kHeight, 90 * quarter).ok());
+    ASSERT_TRUE(display_->present().ok());
+    const Image picture = seen();
+    int black = 0;
+    for (const auto& at : black_at) {
+      const std::uint8_t* p = &picture.rgb[3 * (at[1] * kWidth + at[0])];
+      if (p[0] + p[1] + p[2] > 8) continue;
+      ++black;
+      EXPECT_EQ(&at, &black_at[quarter]);
     }
-  XDestroyImage(shot);
-  expect_golden(seen, "materials_per_pixel");
+    EXPECT_EQ(black, 1) << quarter;
+  }
+  EXPECT_FALSE(platform::draw_still({4, 4, texels}, kWidth, kHeight, 0).ok());
+  ASSERT_TRUE(renderer_->draw(pack_.list()).ok());
+  ASSERT_TRUE(display_->present().ok());
+  expect_golden(seen(), "materials_per_pixel");
 }
 
 TEST_F(WindowStudio, DigitsAreButtons) {

@@ -64,7 +64,8 @@ if(SYSTEMD_ANALYZE)
 endif()
 file(GLOB service_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/firmware-app/service/*.cpp)
 add_executable(unit_firmware_service ${service_tests} ${CMAKE_SOURCE_DIR}/firmware-app/command.cpp
-  ${CMAKE_SOURCE_DIR}/firmware-app/status.cpp ${CMAKE_SOURCE_DIR}/firmware-app/last_state.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/status.cpp ${CMAKE_SOURCE_DIR}/firmware-app/start_times.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/last_state.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/last_good.cpp)
 target_link_libraries(unit_firmware_service PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_service COMMAND unit_firmware_service)

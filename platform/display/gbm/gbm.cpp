@@ -4,8 +4,6 @@
 #include <EGL/eglext.h>
 #include <gbm.h>
 
-#include <cstdio>
-
 #include "platform/clock/clock.h"
 #include "platform/display/egl_context.h"
 #include "platform/display/gbm/card.h"
@@ -13,6 +11,7 @@
 #include "platform/display/gbm/scanout.h"
 #include "platform/display/gbm/surface.h"
 #include "platform/display/gbm/watch.h"
+#include "platform/log/log.h"
 
 namespace caryatid::platform {
 namespace gbm {
@@ -60,7 +59,7 @@ class GbmDisplay final : public Display {
   Status look_for_screen(ErrorLine& out_error);
   Status use(const Output& output, ErrorLine& out_error);
   Status take_in(Status shown);
-  void tell(const char* what);
+  void tell(Event event, const char* what);
 
   // In this order they are made, and in the other one destroyed.
   Console console_;
@@ -108,9 +107,9 @@ Status GbmDisplay::open(const DisplayOptions& options, ErrorLine& out_error) {
   return surface_.create(device_.get(), egl_, width_, height_, {}, out_error);
 }
 
-void GbmDisplay::tell(const char* what) {
-  std::fprintf(stderr, "caryatid: screen %s %ux%u: %s\n",
-               output_.name.size() > 0 ? output_.name.c_str() : "(none)", width_, height_, what);
+void GbmDisplay::tell(Event event, const char* what) {
+  log(event, "screen %s %ux%u: %s", output_.name.size() > 0 ? output_.name.c_str() : "(none)",
+      width_, height_, what);
 }
 
 // not_ready: none is connected, or it cannot be used now.
@@ -122,9 +121,9 @@ Status GbmDisplay::look_for_screen(ErrorLine& out_error) {
   if (status.ok()) return use(output, out_error);
   set_error(out_error, "no screen is connected");
   if (watch_.missing())
-    tell(status.detail == static_cast<std::uint16_t>(DisplayFault::not_master)
-             ? "another program owns it; waiting until it is free"
-             : "not connected; waiting for it");
+    tell(Event::screen_lost, status.detail == static_cast<std::uint16_t>(DisplayFault::not_master)
+                                 ? "another program owns it; waiting until it is free"
+                                 : "not connected; waiting for it");
   return status;
 }
 
@@ -140,7 +139,8 @@ Status GbmDisplay::use(const Output& output, ErrorLine& out_error) {
         modifiers ? output_.modifiers.span() : std::span<const std::uint64_t>{}, out_error));
   }
   scanout_.attach(card_.fd(), card_.atomic(), output_);
-  if (watch_.found()) tell(card_.atomic() ? "in use (atomic)" : "in use (legacy calls)");
+  if (watch_.found())
+    tell(Event::screen_found, card_.atomic() ? "in use (atomic)" : "in use (legacy calls)");
   return {};
 }
 

@@ -284,6 +284,17 @@ uniform sampler2D u_texture;
 void main() { gl_FragColor = texture2D(u_texture, v_uv); }
 )";
 
+// A still picture: a_uv reaches beyond 0..1 where the display is wider than it.
+inline constexpr char kStillVertex[] = R"(
+attribute vec2 a_position;
+attribute vec2 a_uv;
+varying vec2 v_uv;
+void main() {
+  v_uv = a_uv;
+  gl_Position = vec4(a_position, 0.0, 1.0);
+}
+)";
+
 // A vertical gradient at the far plane; a little noise hides its 8-bit steps.
 inline constexpr char kBackgroundVertex[] = R"(
 attribute vec2 a_position;

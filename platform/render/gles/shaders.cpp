@@ -130,6 +130,10 @@ Programs::~Programs() {
   glDeleteProgram(overlay_);
 }
 
+GLuint Programs::make(const char* vertex, const char* fragment, ErrorLine& out_error) {
+  return link({{vertex, "", "", ""}}, {{fragment, "", "", ""}}, out_error);
+}
+
 Status Programs::create(const pack::View& pack, ErrorLine& out_error) {
   for (const pack::Material& material : pack.materials) {
     const std::size_t kind = program_kind(material);
@@ -142,12 +146,10 @@ Status Programs::create(const pack::View& pack, ErrorLine& out_error) {
       }
     }
   }
-  quad_ = link({{kQuadVertex, "", "", ""}}, {{kQuadFragment, "", "", ""}}, out_error);
-  background_ =
-      link({{kBackgroundVertex, "", "", ""}}, {{kBackgroundFragment, "", "", ""}}, out_error);
-  floor_shadow_ =
-      link({{kFloorShadowVertex, "", "", ""}}, {{kFloorShadowFragment, "", "", ""}}, out_error);
-  overlay_ = link({{kOverlayVertex, "", "", ""}}, {{kOverlayFragment, "", "", ""}}, out_error);
+  quad_ = make(kQuadVertex, kQuadFragment, out_error);
+  background_ = make(kBackgroundVertex, kBackgroundFragment, out_error);
+  floor_shadow_ = make(kFloorShadowVertex, kFloorShadowFragment, out_error);
+  overlay_ = make(kOverlayVertex, kOverlayFragment, out_error);
   const bool all = quad_ != 0 && background_ != 0 && floor_shadow_ != 0 && overlay_ != 0;
   return all ? Status{} : fail(RenderFault::program);
 }

@@ -44,6 +44,9 @@ class Programs {
   GLuint background() const { return background_; }      // u_top, u_bottom: sRGB
   GLuint floor_shadow() const { return floor_shadow_; }  // u_view_projection, u_center, u_half
   GLuint overlay() const { return overlay_; }            // u_place, u_picture
+  // One program by itself, with every attribute bound and texture unit 0 in u_texture; 0 with the
+  // driver's first line in `out_error`. The caller deletes it.
+  static GLuint make(const char* vertex, const char* fragment, ErrorLine& out_error);
 
  private:
   Program scene_[kKindCount][kTierCount][kPassCount];

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <time.h>
+
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -19,6 +21,8 @@ KioskStatus busy() {
   s.has_temperature = true;
   s.temperature_celsius = 61.2;
   s.under_voltage = true;
+  s.start.picture_s = 0.125;
+  s.start.person_s = 0.5;
   return s;
 }
 
@@ -30,6 +34,8 @@ TEST(Status, JsonReadsBackAndHasNoNewline) {
   EXPECT_EQ(json["frames"], 375);
   EXPECT_EQ(json["emotion"], "joy");
   EXPECT_EQ(json["under_voltage"], true);
+  EXPECT_EQ(json["picture_s"], 0.125);
+  EXPECT_EQ(json["person_s"], 0.5);
   EXPECT_NEAR(json["temperature_celsius"].get<double>(), 61.2, 1e-9);
 }
 
@@ -53,7 +59,7 @@ TEST(Status, PrometheusTextHasATypeAndAValueForEachName) {
     EXPECT_EQ(name.ends_with("_total"), kind == "counter") << name;
     EXPECT_GE(value, 0.0);
   }
-  EXPECT_GE(metrics, 14);
+  EXPECT_EQ(metrics, 17);
 }
 
 TEST(Status, NothingIsWrittenInPieces) {
@@ -62,6 +68,15 @@ TEST(Status, NothingIsWrittenInPieces) {
   for (std::size_t n : {std::size_t{1}, std::size_t{50}, json})
     EXPECT_TRUE(format_json(busy(), std::span(text, n)).empty()) << n;
   EXPECT_EQ(format_json(busy(), std::span(text, json + 1)).size(), json);
+}
+
+// The kernel's tick is 10 ms and the age is rounded up by at most as much.
+TEST(Status, TheAgeOfTheProcessGrowsWithTheClock) {
+  const double before_s = process_age_s();
+  EXPECT_GT(before_s, 0.0);
+  timespec pause{0, 30'000'000};
+  nanosleep(&pause, nullptr);
+  EXPECT_GE(process_age_s(), before_s + 0.03);
 }
 
 TEST(Status, ResidentMemoryIsThatOfThisProcess) {
