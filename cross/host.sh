@@ -203,7 +203,15 @@ run_kiosk() {
   mkdir -p out
   "$bin/caryatid" --display surfaceless --virtual-clock \
     --script assets/programme/default.script --duration 20 \
-    --frames-out out --frames-every 5 --metrics out/metrics.jsonl "${args[@]}"
+    --frames-out out --frames-every 5 --metrics out/metrics.jsonl "${args[@]}" &
+  local kiosk=$!
+  trap 'kill "$kiosk" 2>/dev/null' EXIT
+  local seconds=0
+  while sleep 1 && kill -0 "$kiosk" 2>/dev/null; do
+    [ $((++seconds % 10)) -ne 0 ] || say "$(find out -name 'frame_*.png' | wc -l) pictures"
+  done
+  wait "$kiosk"
+  trap - EXIT
   "$bin/caryatid-tool" plot metrics out/metrics.jsonl -o out/metrics.svg
   say "no window here: pictures, contact sheet, metrics.jsonl and metrics.svg are in out/"
 }

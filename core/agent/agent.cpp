@@ -3,6 +3,19 @@
 #include <algorithm>
 
 namespace caryatid::agent {
+namespace {
+
+// A smile for the visitor takes so long to come or go (time constant; emotions.md 3.4's offsets).
+constexpr float kFriendlyTime_s = 0.5f;
+
+// What is left of the whole when every feeling has taken its part.
+float unfelt(const emotion::Weights& w) {
+  float sum = 0.0f;
+  for (const float each : w) sum += each;
+  return std::max(0.0f, 1.0f - sum);
+}
+
+}  // namespace
 
 void Agent::press() {
   pressed_ = true;
@@ -27,7 +40,9 @@ const Intentions& Agent::step(float dt_s) {
   const bool busy = since_press_s_ < kBusy_s || feeling_.current() != emotion::Emotion::calm;
   idle_.step(dt, std::max(attend_, since_press_s_ < 4.0f ? 1.0f : (busy ? 0.6f : 0.2f)));
 
+  friendly_ += ((busy ? kFriendly : 0.0f) - friendly_) * std::min(1.0f, dt / kFriendlyTime_s);
   out_.emotions = feeling_.weights();
+  out_.emotions[emotion::index_of(emotion::Emotion::joy)] += friendly_ * unfelt(feeling_.weights());
   out_.emotion = feeling_.current();
   out_.idle_face = idle_.face();
   out_.body = body::BapFrame{};

@@ -24,6 +24,8 @@ struct Intentions {
 
 // The person counts as visited for so long after the last press.
 inline constexpr float kBusy_s = 20.0f;
+// Who is visited looks friendly between two feelings: so much joy, less by what else is felt.
+inline constexpr float kFriendly = 0.3f;
 
 class Agent {
  public:
@@ -57,6 +59,7 @@ class Agent {
   IdleLife idle_;
   float since_press_s_ = 1e6f;
   float attend_ = 0.0f;
+  float friendly_ = 0.0f;
   bool pressed_ = false;
   body::GestureKind gesture_ = body::GestureKind::none;
   Intentions out_;

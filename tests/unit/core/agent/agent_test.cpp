@@ -53,5 +53,25 @@ TEST(Agent, HeldFeelingOfAnotherProgramStays) {
   EXPECT_NEAR(agent.step(kFrame_s).emotions[4], 0.5f, 1e-4f);
 }
 
+TEST(Agent, LooksFriendlyToAVisitorAndToNobodyElse) {
+  Agent agent(1);
+  EXPECT_EQ(agent.step(kFrame_s).emotions[1], 0.0f);
+  agent.press();
+  for (int i = 0; i < 90; ++i) agent.step(kFrame_s);
+  EXPECT_NEAR(agent.step(kFrame_s).emotions[1], kFriendly, 0.01f);
+  EXPECT_EQ(agent.step(kFrame_s).emotion, emotion::Emotion::calm);
+  for (int i = 0; i < 30 * 30; ++i) agent.step(kFrame_s);
+  EXPECT_NEAR(agent.step(kFrame_s).emotions[1], 0.0f, 1e-3f);
+}
+
+TEST(Agent, AFullFeelingLeavesNoRoomForASmile) {
+  Agent agent(1);
+  agent.press();
+  for (int i = 0; i < 90; ++i) agent.step(kFrame_s);
+  agent.feel(emotion::Emotion::sadness, 1.0f);
+  for (int i = 0; i < 90; ++i) agent.step(kFrame_s);
+  EXPECT_EQ(agent.step(kFrame_s).emotions[1], 0.0f);
+}
+
 }  // namespace
 }  // namespace caryatid::agent
