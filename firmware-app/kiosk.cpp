@@ -108,6 +108,7 @@ bool Kiosk::open_display() {
   d.width = options_.width;
   d.height = options_.height;
   d.insists_on_size = options_.size_given;
+  d.times_gpu = !options_.virtual_clock;  // Then a model of the board says what it costs.
   if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
   if (options_.display == "window") d.kind = platform::DisplayKind::window;
   if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
@@ -525,6 +526,7 @@ void Kiosk::measure(const Tick& tick) {
     sample_.time_us = static_cast<std::uint64_t>(flip_.count > 0 ? flip_.time_us : now_us);
     if (visible())
       sample_.cpu_us = static_cast<std::uint32_t>(now_us - tick.start_us) - flip_.waited_us;
+    if (visible() && flip_.gpu_us != platform::Flip::kNotTimed) sample_.gpu_us = flip_.gpu_us;
     if (visible()) sample_.vblanks = flip_.vblanks;
     sample_.drawn = work;
     sample_.thermal = static_cast<lod::ThermalLevel>(heat_.heat);

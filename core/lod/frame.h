@@ -33,9 +33,11 @@ struct Work {
 // - cpu_us: monotonic clock from the start of the frame to the return of the last GL call. Wall
 //   time, not thread time, so that other processes' load shows.
 // - gpu_us: the loop is serial (frame n+1 starts at the flip of frame n), so the thread has nothing
-//   to do until the flip; it puts EGL_KHR_fence_sync behind the last draw and takes the time when
-//   the fence signals (with EGL_ANDROID_native_fence_sync: the kernel's own time stamp from
-//   SYNC_IOC_FILE_INFO). gpu_us is that minus the time of the last GL call.
+//   to do until the flip; it puts a fence behind the last draw and takes the time when the fence
+//   signals: with EGL_ANDROID_native_fence_sync (VC4, V3D, Lima, etnaviv) the kernel's own time
+//   stamp from SYNC_IOC_FILE_INFO, read after the flip; with EGL_KHR_fence_sync alone the first of
+//   the looks, 250 us apart, that finds it. gpu_us is that minus the time of the last GL call
+//   (the swap): platform/display/gpu_timer.h.
 // - vblanks: from the sequence numbers of the page-flip events, never from the return of swap.
 //   Quantised: "in time" only says cpu + gpu <= deadline, "late" only says more than it. Where
 //   there is no fence the controller learns from these bounds alone (see StageModel).

@@ -21,6 +21,7 @@ struct DisplayOptions {
   // drm: the size was asked for; else the mode that the screen prefers counts.
   bool insists_on_size = false;
   const char* title = "Caryatid";
+  bool times_gpu = true;  // Fill in Flip::gpu_us where the driver can; a replay has no use for it.
 };
 
 // Why a display did not open or stopped: Status::detail.
@@ -53,6 +54,9 @@ struct Flip {
   std::int64_t time_us = 0;     // Monotonic, by the screen's own time stamp.
   std::uint16_t vblanks = 0;    // Refresh periods since the flip before; 0: unknown.
   std::uint32_t waited_us = 0;  // How long present() waited for it, with nothing to do.
+  // How long the GPU went on with it after the last GL call (see gpu_timer.h).
+  std::uint32_t gpu_us = kNotTimed;
+  static constexpr std::uint32_t kNotTimed = 0xffffffffu;
 };
 
 using GlProc = void (*)();
@@ -72,7 +76,8 @@ class Display {
   // Shows what was drawn; on a screen waits for the next refresh where the driver does.
   // device_lost (context_lost, flip_lost): everything on the GPU is gone.
   virtual Status present() = 0;
-  // count stays 0 where the display can't tell.
+  // count stays 0 where the display counts no refreshes; waited_us and gpu_us are there all the
+  // same.
   virtual Flip last_flip() const { return {}; }
   // Time between two refreshes of the screen; 0: the display can't tell.
   virtual std::int64_t refresh_us() const { return 0; }

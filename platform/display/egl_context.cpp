@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "platform/clock/clock.h"
+
 namespace caryatid::platform {
 namespace {
 
@@ -47,6 +49,7 @@ void set_egl_error(ErrorLine& out, const char* text) {
 
 EglContext::~EglContext() {
   if (display_ == EGL_NO_DISPLAY) return;
+  timer_.close();
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
   eglTerminate(display_);
@@ -114,13 +117,26 @@ Status EglContext::create_context(ErrorLine& out_error) {
 }
 
 Status EglContext::make_current(EGLSurface surface, ErrorLine& out_error) {
-  if (eglMakeCurrent(display_, surface, surface, context_) == EGL_TRUE) return {};
+  if (eglMakeCurrent(display_, surface, surface, context_) == EGL_TRUE) {
+    if (times_gpu_) times_gpu_ = timer_.open(display_);
+    return {};
+  }
   set_egl_error(out_error, "the OpenGL ES context cannot be used on this display");
   return fail(DisplayFault::no_context);
 }
 
-Status EglContext::swap(EGLSurface surface) const {
-  if (eglSwapBuffers(display_, surface) == EGL_TRUE) return {};
+void EglContext::wait_for_gpu(Flip& io_flip) {
+  const std::int64_t began_us = monotonic_us();
+  timer_.wait(began_us + kGpuWait_us);
+  io_flip.waited_us += static_cast<std::uint32_t>(monotonic_us() - began_us);
+  io_flip.gpu_us = timer_.gpu_us();
+}
+
+Status EglContext::swap(EGLSurface surface) {
+  timer_.mark();
+  const bool swapped = surface == EGL_NO_SURFACE || eglSwapBuffers(display_, surface) == EGL_TRUE;
+  timer_.sent();
+  if (swapped) return {};
   const EGLint error = eglGetError();
   if (error == EGL_CONTEXT_LOST || error == EGL_BAD_NATIVE_WINDOW || error == EGL_BAD_SURFACE)
     return fail(DisplayFault::context_lost, Code::device_lost);

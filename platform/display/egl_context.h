@@ -3,6 +3,7 @@
 #include <EGL/egl.h>
 
 #include "platform/display/display.h"
+#include "platform/display/gpu_timer.h"
 
 namespace caryatid::platform {
 
@@ -27,8 +28,18 @@ class EglContext {
   Status open(const EglRequest& request, ErrorLine& out_error);
   // Makes the context current on `surface` (EGL_NO_SURFACE: without one).
   Status make_current(EGLSurface surface, ErrorLine& out_error);
-  // Swaps; device_lost (context_lost) when the GPU was reset.
-  Status swap(EGLSurface surface) const;
+  // Swaps; device_lost (context_lost) when the GPU was reset. Without a surface sends off what was
+  // drawn.
+  Status swap(EGLSurface surface);
+  // For displays without a flip to wait for: waits for the GPU instead, at most kGpuWait_us, and
+  // fills in waited_us and gpu_us.
+  void wait_for_gpu(Flip& io_flip);
+  // From the first swap on, where the driver has fences.
+  void time_gpu() { times_gpu_ = true; }
+  GpuTimer& timer() { return timer_; }
+  const GpuTimer& timer() const { return timer_; }
+
+  static constexpr std::int64_t kGpuWait_us = 100'000;
 
   EGLDisplay display() const { return display_; }
   EGLConfig config() const { return config_; }
@@ -41,6 +52,8 @@ class EglContext {
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLConfig config_ = nullptr;
   EGLContext context_ = EGL_NO_CONTEXT;
+  bool times_gpu_ = false;
+  GpuTimer timer_;
 };
 
 // Whether `name` is a word of the space-separated list `extensions` (nullptr: no).

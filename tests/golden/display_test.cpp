@@ -1,11 +1,13 @@
 // Displays that cannot open say so in one line and leave nothing behind.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
 #include "platform/display/display.h"
+#include "platform/display/gpu_timer.h"
 
 namespace caryatid::platform {
 namespace {
@@ -49,6 +51,30 @@ TEST(Display, WindowWithoutAServerTellsWhatToDo) {
     setenv("DISPLAY", kept.c_str(), 1);
   else
     unsetenv("DISPLAY");
+}
+
+// What a display needs for the time of the GPU, llvmpipe has too: a fence behind the last draw.
+TEST(Display, SurfacelessTimesTheGpuWhereAsked) {
+  for (const bool asked : {true, false}) {
+    DisplayOptions options;
+    options.kind = DisplayKind::surfaceless;
+    options.times_gpu = asked;
+    std::unique_ptr<Display> display;
+    ErrorLine error;
+    ASSERT_TRUE(open_display(options, display, error).ok()) << error.c_str();
+    for (int frame = 0; frame < 3; ++frame) {
+      ASSERT_TRUE(display->present().ok());
+      const Flip flip = display->last_flip();
+      EXPECT_EQ(flip.count, 0u);
+      EXPECT_EQ(flip.gpu_us != Flip::kNotTimed, asked);
+    }
+  }
+}
+
+// A sync file that is none: no time, and no crash.
+TEST(GpuTimer, AskedAboutSomethingElseTheKernelCannotTell) {
+  EXPECT_EQ(signalled_us(-1), -1);
+  EXPECT_EQ(signalled_us(STDERR_FILENO), -1);
 }
 
 }  // namespace

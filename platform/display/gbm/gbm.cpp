@@ -48,7 +48,7 @@ class GbmDisplay final : public Display {
   GlProc proc_address(const char* gl_name) const override { return eglGetProcAddress(gl_name); }
   Status poll(std::int64_t now_us, DisplayEvents& out) override;
   Status present() override;
-  Flip last_flip() const override { return scanout_.last_flip(); }
+  Flip last_flip() const override;
   std::int64_t refresh_us() const override {
     return output_.connector != 0 ? period_us(output_.mode) : 0;
   }
@@ -95,6 +95,7 @@ Status GbmDisplay::open(const DisplayOptions& options, ErrorLine& out_error) {
                           .surface_bit = EGL_WINDOW_BIT,
                           .visual_id = static_cast<EGLint>(kFormat)},
                          out_error));
+  if (options.times_gpu) egl_.time_gpu();
   const Status found = look_for_screen(out_error);
   if (found.ok() || !may_wait || found.code != Code::not_ready) {
     if (found.ok()) console_.take();
@@ -170,8 +171,21 @@ Status GbmDisplay::present() {
   const Status swapped = surface_.swap(fb);
   if (!swapped.ok() && swapped.code != Code::io) return swapped;
   Status shown = swapped;
-  if (swapped.ok()) shown = scanout_.show(fb);
+  GpuTimer& timer = egl_.timer();
+  if (swapped.ok())
+    shown =
+        scanout_.show(fb, timer.wants_looks()
+                              ? Meanwhile{[](void* t) { return static_cast<GpuTimer*>(t)->look(); },
+                                          &timer, GpuTimer::kLook_us}
+                              : Meanwhile{});
+  (void)timer.look();
   return take_in(shown);
+}
+
+Flip GbmDisplay::last_flip() const {
+  Flip flip = scanout_.last_flip();
+  flip.gpu_us = egl_.timer().gpu_us();
+  return flip;
 }
 
 // What cannot be shown now is no reason to end; the next probe, in a second at most, tries again.

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "platform/clock/clock.h"
@@ -54,12 +55,12 @@ void Scanout::on_flip(int, unsigned sequence, unsigned s, unsigned us, unsigned,
   self.state_ = State::lit;
 }
 
-Status Scanout::show(std::uint32_t fb) {
+Status Scanout::show(std::uint32_t fb, Meanwhile meanwhile) {
   const std::int64_t began_us = monotonic_us();
   for (int loss = 0; loss < kLossesToBear; ++loss) {
     CARYATID_TRY(submit(fb));
     const std::int64_t patience_us = std::max(kPeriodsToWait * period_us_, kLeastWait_us);
-    if (wait(monotonic_us() + patience_us)) {
+    if (wait(monotonic_us() + patience_us, meanwhile)) {
       flip_.waited_us = static_cast<std::uint32_t>(monotonic_us() - began_us);
       return {};
     }
@@ -126,15 +127,20 @@ int Scanout::commit(std::uint32_t fb, bool with_mode) {
   return error;
 }
 
-bool Scanout::wait(std::int64_t end_us) {
+bool Scanout::wait(std::int64_t end_us, Meanwhile meanwhile) {
   drmEventContext context{};
   context.version = 3;
   context.page_flip_handler2 = on_flip;
   while (state_ == State::flipping) {
     const std::int64_t left_us = end_us - monotonic_us();
     if (left_us <= 0) return false;
+    if (meanwhile.look != nullptr && meanwhile.look(meanwhile.self)) meanwhile.look = nullptr;
+    const std::int64_t pause_us =
+        meanwhile.look != nullptr ? std::min(left_us, meanwhile.every_us) : left_us + 1000;
+    const timespec pause{static_cast<time_t>(pause_us / 1'000'000),
+                         static_cast<long>(pause_us % 1'000'000 * 1000)};
     pollfd ready{card_, POLLIN, 0};
-    const int count = ::poll(&ready, 1, static_cast<int>(left_us / 1000) + 1);
+    const int count = ::ppoll(&ready, 1, &pause, nullptr);
     if (count > 0 && drmHandleEvent(card_, &context) != 0) return false;
   }
   return true;

@@ -14,6 +14,13 @@
 
 namespace caryatid::platform::gbm {
 
+// What to do again and again while a flip is waited for, until it returns true.
+struct Meanwhile {
+  bool (*look)(void* self) = nullptr;
+  void* self = nullptr;
+  std::int64_t every_us = 0;
+};
+
 class Scanout {
  public:
   Scanout() = default;
@@ -31,7 +38,7 @@ class Scanout {
   // not_ready (not_master): another program owns the screen. not_ready (no_screen): the mode or
   // the layout is refused, most likely since the cable was pulled. device_lost (flip_lost): the
   // driver loses flips. device_lost (no_card): the card is gone.
-  Status show(std::uint32_t fb);
+  Status show(std::uint32_t fb, Meanwhile meanwhile = {});
   // Stops scanning out; the next show() sets the mode again. Errors are of no use to anyone.
   void darken();
   // Puts back what the screen showed before us. After it nothing may be shown.
@@ -48,7 +55,7 @@ class Scanout {
   int set_mode(std::uint32_t fb);
   int flip(std::uint32_t fb);
   int commit(std::uint32_t fb, bool with_mode);
-  bool wait(std::int64_t end_us);
+  bool wait(std::int64_t end_us, Meanwhile meanwhile = {});
   Status refused(int error);
   void forget();
 

@@ -16,6 +16,8 @@ class SurfacelessDisplay final : public Display {
     CARYATID_TRY(egl_.open(
         {.platform = EGL_PLATFORM_SURFACELESS_MESA, .native_display = EGL_DEFAULT_DISPLAY},
         out_error));
+    times_gpu_ = options.times_gpu;
+    if (times_gpu_) egl_.time_gpu();
     return egl_.make_current(EGL_NO_SURFACE, out_error);
   }
 
@@ -25,10 +27,19 @@ class SurfacelessDisplay final : public Display {
   bool has_surface() const override { return false; }
   GlProc proc_address(const char* gl_name) const override { return eglGetProcAddress(gl_name); }
   Status poll(std::int64_t, DisplayEvents&) override { return {}; }
-  Status present() override { return {}; }
+  Status present() override {
+    if (!times_gpu_) return {};
+    CARYATID_TRY(egl_.swap(EGL_NO_SURFACE));
+    flip_ = {};
+    egl_.wait_for_gpu(flip_);
+    return {};
+  }
+  Flip last_flip() const override { return flip_; }
 
  private:
   EglContext egl_;
+  Flip flip_;
+  bool times_gpu_ = false;
   std::uint32_t width_ = 0, height_ = 0;
 };
 

@@ -32,6 +32,7 @@ class WaylandDisplay final : public Display {
   GlProc proc_address(const char* gl_name) const override { return eglGetProcAddress(gl_name); }
   Status poll(std::int64_t now_us, DisplayEvents& out) override;
   Status present() override;
+  Flip last_flip() const override { return flip_; }
 
  private:
   static Status lost() {
@@ -42,6 +43,7 @@ class WaylandDisplay final : public Display {
   EglContext egl_;
   wl_egl_window* window_ = nullptr;
   EGLSurface surface_ = EGL_NO_SURFACE;
+  Flip flip_;
   std::int32_t width_ = 0, height_ = 0;  // What is drawn; the connection has the newest wish.
 };
 
@@ -63,6 +65,7 @@ Status WaylandDisplay::open(const DisplayOptions& options, ErrorLine& out_error)
     set_egl_error(out_error, "EGL cannot draw in a Wayland window");
     return {Code::unsupported, static_cast<std::uint16_t>(DisplayFault::no_surface)};
   }
+  if (options.times_gpu) egl_.time_gpu();
   CARYATID_TRY(egl_.make_current(surface_, out_error));
   // EGL's own wait never ends while the window is hidden; present() waits with a limit.
   eglSwapInterval(egl_.display(), 0);
@@ -81,12 +84,15 @@ Status WaylandDisplay::poll(std::int64_t now_us, DisplayEvents& out) {
 }
 
 Status WaylandDisplay::present() {
-  const std::int64_t end_us = monotonic_us() + kFrameWait_us;
+  const std::int64_t began_us = monotonic_us(), end_us = began_us + kFrameWait_us;
+  flip_ = {};
   while (connection_.awaits_frame() && monotonic_us() < end_us)
     if (!connection_.pump(static_cast<int>((end_us - monotonic_us()) / 1000) + 1)) return lost();
+  flip_.waited_us = static_cast<std::uint32_t>(monotonic_us() - began_us);
   if (connection_.awaits_frame()) return {};  // Hidden: nobody sees this picture.
   connection_.ask_for_frame();
   const Status swapped = egl_.swap(surface_);
+  if (swapped.ok()) egl_.wait_for_gpu(flip_);
   return connection_.lost() ? lost() : swapped;
 }
 

@@ -49,8 +49,12 @@ class WindowDisplay final : public Display {
   Status poll(std::int64_t now_us, DisplayEvents& out) override;
   Status present() override {
     if (server_lost) return lost();
-    return egl_.swap(surface_);
+    CARYATID_TRY(egl_.swap(surface_));
+    flip_ = {};
+    egl_.wait_for_gpu(flip_);
+    return {};
   }
+  Flip last_flip() const override { return flip_; }
 
  private:
   static Status lost() {
@@ -65,6 +69,7 @@ class WindowDisplay final : public Display {
   Colormap colormap_ = 0;
   Atom delete_message_ = 0;
   EGLSurface surface_ = EGL_NO_SURFACE;
+  Flip flip_;
   std::uint32_t width_ = 0, height_ = 0;
 };
 
@@ -83,6 +88,7 @@ Status WindowDisplay::open(const DisplayOptions& options, ErrorLine& out_error) 
                           .samples = options.samples},
                          out_error));
   CARYATID_TRY(create_window(options, out_error));
+  if (options.times_gpu) egl_.time_gpu();
   CARYATID_TRY(egl_.make_current(surface_, out_error));
   eglSwapInterval(egl_.display(), 1);
   return {};

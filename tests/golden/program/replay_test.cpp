@@ -29,6 +29,19 @@ TEST(Replay, TwoRunsGiveTheSameBits) {
   EXPECT_EQ(pictures, 9);  // Frames 0, 12 .. 84 and the sheet.
 }
 
+// By the real clock the controller learns what the GPU takes.
+TEST(Replay, LiveTheGpuIsTimed) {
+  const auto out = fresh_folder("gpu");
+  const Outcome run = run_program("--pack " + kBuiltin +
+                                  " --display surfaceless --size 200x160 --duration 0.5"
+                                  " --metrics " +
+                                  (out / "metrics.jsonl").string());
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const std::string metrics = content(out / "metrics.jsonl");
+  EXPECT_NE(metrics.find("\"gpu_ms\":"), std::string::npos);
+  EXPECT_EQ(metrics.find("\"gpu_ms\":null"), std::string::npos);
+}
+
 TEST(Replay, AnotherSeedIsAnotherLife) {
   const auto a = fresh_folder("s1"), b = fresh_folder("s2");
   play(a);

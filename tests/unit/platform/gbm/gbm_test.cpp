@@ -191,6 +191,19 @@ TEST_F(GbmTest, ALostFlipIsAskedForAgain) {
   EXPECT_EQ(card.shown.back().fb, 2u);
 }
 
+// The time of the GPU's fence is that of the look that finds it signalled.
+TEST_F(GbmTest, WhileAFlipIsWaitedForSomeoneLooksUntilThereIsNothingMoreToSee) {
+  FakeCard& card = board();
+  open(card);
+  ASSERT_TRUE(scanout_.show(1).ok());
+  card.events_to_lose = 1;  // A long wait.
+  int looks = 0;
+  const auto look = [](void* n) { return ++*static_cast<int*>(n) >= 3; };
+  EXPECT_TRUE(scanout_.show(2, {look, &looks, 250}).ok());
+  EXPECT_GE(looks, 2);
+  EXPECT_LE(looks, 4);  // And once more when the flip is asked for again.
+}
+
 TEST_F(GbmTest, ADriverThatLosesFlipAfterFlipIsGivenUp) {
   FakeCard& card = board();
   open(card);
