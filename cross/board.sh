@@ -13,7 +13,8 @@ usage: cross/board.sh build [arm64|armhf] [bookworm|trixie] [CMAKE-ARGS]   cross
 
 Default: arm64 bookworm. The libraries come from packages of the board's own release, kept under
 ~/.cache/caryatid; bookworm has libgpiod 1.6, trixie libgpiod 2.
-The program is build/cross-ARCH-RELEASE/bin/caryatid.
+The program is build/cross-ARCH-RELEASE/bin/caryatid. TARGETS="NAME..." builds only these. Debian
+packages: cross/package.sh --help.
 test needs what cross/host.sh build leaves (the pack, and this PC's caryatid to compare with) and
 leaves pictures in build/board. It aims at a quarter of an hour on two idle cores. A machine that is
 busy with other things gets more time to wait by CARYATID_BOARD_PATIENCE=3; what is promised to the
@@ -78,6 +79,10 @@ make_sysroot() {
     --include="${names// /,}" "$release" "$scratch" http://deb.debian.org/debian \
     >"$cache/sysroot.log" 2>&1 ||
     fail "no sysroot of $release for $arch; $cache/sysroot.log says why"
+  # Absolute links would lead to this PC's libraries.
+  find "$scratch" -type l -lname '/*' -printf '%p\t%l\n' | while IFS=$'\t' read -r name target; do
+    ln -srfT "$scratch$target" "$name"
+  done
   mv -T "$scratch" "$sysroot"
 }
 
@@ -92,7 +97,7 @@ build() {
     >"$folder.log" 2>&1 ||
     { tail -n 40 "$folder.log" >&2; fail "configuring failed"; }
   # shellcheck disable=SC2086  # Several targets, or none for all.
-  nice ninja -C "$folder" --quiet ${targets:-} || fail "building failed"
+  nice ninja -C "$folder" --quiet ${TARGETS:-} || fail "building failed"
   say "built $folder/bin/caryatid"
 }
 
@@ -151,7 +156,7 @@ emulated_test() {
   local host=build/host-release/bin/caryatid
   [ -x "$host" ] && [ -f "$pack" ] ||
     fail "$host or $pack is missing; first run cross/host.sh build"
-  targets=caryatid
+  TARGETS=caryatid
   packages+=(qemu-system-arm e2fsprogs kmod cpio)
   build
   make_board_tree
