@@ -205,7 +205,7 @@ run_kiosk() {
     --script assets/programme/default.script --duration 20 \
     --frames-out out --frames-every 5 --metrics out/metrics.jsonl "${args[@]}" &
   local kiosk=$!
-  trap 'kill "$kiosk" 2>/dev/null' EXIT
+  trap "kill $kiosk 2>/dev/null || true" EXIT
   local seconds=0
   while sleep 1 && kill -0 "$kiosk" 2>/dev/null; do
     [ $((++seconds % 10)) -ne 0 ] || say "$(find out -name 'frame_*.png' | wc -l) pictures"
