@@ -95,14 +95,14 @@ class Face {
     if (out > 0.0f)
       for (const Ray& r : kRays) {
         const float off = rho * (r.angle + r.bend * (rho - 0.008f) - angle);
-        sum += r.strength * fold(off / 0.0009f, 0.7f) * span_of(rho, r.begin_m, r.end_m, 0.0035f);
+        sum += r.strength * fold(off / 0.0012f, 0.9f) * span_of(rho, r.begin_m, r.end_m, 0.0035f);
       }
     // The bag: an arc below the lid's rim, deepest under the inner half.
     const Vec3 e = p - eye_;
     const float half_m = canthus_.x - eye_.x, x = e.x / half_m;
     const float drop_m = eye_.y - lower_lid_.y + 0.0062f;
     const float arc_m = -drop_m * std::sqrt(std::max(1.0f - 0.42f * x * x, 0.05f));
-    const float bag = 0.6f * fold((arc_m - e.y) / 0.0013f, 0.8f) * span_of(x, -0.80f, 0.85f, 0.3f);
+    const float bag = 0.55f * fold((arc_m - e.y) / 0.0019f, 0.9f) * span_of(x, -0.80f, 0.85f, 0.3f);
     return sum + (e.z > -0.01f ? bag : 0.0f);
   }
 
@@ -129,7 +129,9 @@ class Face {
       last = next;
     }
     if (p.z < corner_.z - 0.03f) return 0.0f;
-    return fold(side * best_m / 0.0016f, 0.75f) * span_of(share, 0.04f, 0.92f, 0.12f);
+    // A soft step beside the nose that sharpens on its way down.
+    const float width_m = glm::mix(0.0030f, 0.0019f, share);
+    return 0.85f * fold(side * best_m / width_m, 0.9f) * span_of(share, 0.06f, 0.84f, 0.16f);
   }
 
  private:
