@@ -23,7 +23,7 @@ namespace caryatid::app {
 namespace {
 
 std::atomic<bool> g_stop{false};
-std::atomic<bool> g_flips_stopped{false}, g_input_stopped{false}, g_gpu_reset{false};
+std::atomic<bool> g_flips_stopped{false}, g_gpu_reset{false};
 
 // Bytes of the pack that are read between two frames while it still loads.
 constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
@@ -60,7 +60,6 @@ body::BapConvention bap_axes_of(const std::string& name) {
 
 void Kiosk::request_stop() { g_stop = true; }
 void Kiosk::stop_flips() { g_flips_stopped = true; }
-void Kiosk::stop_input() { g_input_stopped = true; }
 void Kiosk::reset_gpu() { g_gpu_reset = true; }
 
 bool Kiosk::load_base(std::string* out_error) {
@@ -110,7 +109,8 @@ bool Kiosk::open_display() {
   d.height = options_.height;
   d.insists_on_size = options_.size_given;
   d.times_gpu = !options_.virtual_clock;  // Then a model of the board says what it costs.
-  if (options_.display == "drm") d.kind = platform::DisplayKind::drm;
+  d.legacy_kms = options_.display == "drm-legacy";
+  if (options_.display == "drm" || d.legacy_kms) d.kind = platform::DisplayKind::drm;
   if (options_.display == "window") d.kind = platform::DisplayKind::window;
   if (options_.display == "surfaceless") d.kind = platform::DisplayKind::surfaceless;
   return platform::open_display(d, display_, error).ok() || refuse(error.c_str());
@@ -242,7 +242,7 @@ bool Kiosk::run() {
     if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
     ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
     if (ok && frame_number_ == 0) tell_picture("person", &start_times_.person_s);
-    if (ok) watch();
+    watch(ok);
     last_s = now_s;
     ++frame_number_;
     report_.seconds = now_s + period_s;
@@ -265,11 +265,15 @@ bool Kiosk::run() {
 }
 
 // The supervisor's heartbeat and the board's temperature; a replay has neither.
-void Kiosk::watch() {
+void Kiosk::watch(bool shown) {
   if (options_.virtual_clock) return;
   const std::int64_t now_us = platform::monotonic_us();
-  if (!told_ready_) told_ready_ = notifier_.ready().ok();
-  (void)notifier_.beat(now_us, vitals_);
+  if (shown && !told_ready_) told_ready_ = notifier_.ready().ok();
+  // Where the display counts its flips, only a new one is a sign of life.
+  const bool flipped = !visible() || flip_.count == 0 || flip_.count != flips_watched_;
+  flips_watched_ = flip_.count;
+  (void)notifier_.beat(now_us,
+                       {.flipped = shown && flipped, .input_ran = true, .audio_moved = true});
   if (service_.due(now_us)) {
     KioskStatus s = status();
     service_.fill(&s);
@@ -282,7 +286,6 @@ void Kiosk::watch() {
 
 bool Kiosk::frame(const Tick& tick) {
   last_time_s_ = tick.time_s;
-  vitals_ = {.flipped = false, .input_ran = false, .audio_moved = false};
   load_more();
   poll_buttons(tick);
   act(tick);
@@ -322,7 +325,6 @@ void Kiosk::note_press(const platform::ButtonEvents& events, std::int64_t to_mon
 void Kiosk::poll_buttons(const Tick& tick) {
   events_.clear();
   pressed_us_ = 0;
-  if (g_input_stopped) return;
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
   const std::int64_t began_us = tick.start_us - now_us;
   panel_.poll(platform::monotonic_us(), events_);
@@ -332,7 +334,6 @@ void Kiosk::poll_buttons(const Tick& tick) {
   service_.control().poll(this, [](void* self, std::span<const char> line, auto& reply) {
     static_cast<Kiosk*>(self)->obey({line.data(), line.size()}, reply);
   });
-  vitals_.input_ran = true;
   note_press(events_, 0);
   for (const ButtonEvent& e : others) (void)events_.push(e);
   if (!display_) return;
@@ -487,7 +488,6 @@ bool Kiosk::draw(const Tick& tick) {
                       &list_.ambient_down, &list_.background_top, &list_.background_bottom})
     *light *= care_.light();
   // Drawn for nobody, a board would only grow warm; what changed meanwhile stays collected.
-  vitals_.flipped = !visible() || !display_;
   if (!visible()) return true;
   person_.collect_patches(&list_.patches);
   show_overlay(tick);
@@ -504,10 +504,7 @@ bool Kiosk::draw(const Tick& tick) {
   if (!display_ || g_flips_stopped) return true;
   const Status shown = display_->present();
   if (shown.code == Code::device_lost) return reopen_screen();
-  // Where the display counts its flips, only a new one is a sign of life.
-  const std::uint64_t flips_before = flip_.count;
   flip_ = display_->last_flip();
-  vitals_.flipped = shown.ok() && (flip_.count == 0 || flip_.count != flips_before);
   if (shown.ok() && flip_.count == 0) flip_.time_us = platform::monotonic_us();
   return shown.ok();
 }
@@ -554,14 +551,8 @@ void Kiosk::measure(const Tick& tick) {
   m.shading = static_cast<int>(list_.shading);
   m.emotion = agent_->emotion();
   m.speech = speech_metrics();
-  if (pressed_us_ != 0 && visible()) {
-    // Under a virtual clock the frame is on the screen when the board's time for it is over.
-    const auto frame_us = static_cast<std::int64_t>(m.frame_ms * 1e3);
-    const std::int64_t shown_us = options_.virtual_clock ? tick.start_us + frame_us
-                                  : display_             ? flip_.time_us
-                                                         : now_us;
-    m.reaction_ms = static_cast<double>(shown_us - pressed_us_) * 1e-3;
-  }
+  if (pressed_us_ != 0 && visible() && !options_.virtual_clock)
+    m.reaction_ms = static_cast<double>((display_ ? flip_.time_us : now_us) - pressed_us_) * 1e-3;
   if (frame_number_ == 1) m.start = start_times_;
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();

@@ -17,7 +17,8 @@ usage: caryatid [OPTIONS]
 
   --config FILE          kiosk.toml: buttons and what they do (default: the built-in programme)
   --pack FILE            the character, made by caryatid-tool bake (default: a built-in face)
-  --display KIND         auto, drm, window, surfaceless or none (default auto)
+  --display KIND         auto, drm, window, surfaceless or none (default auto); drm-legacy is drm
+                         without atomic mode setting, for a driver that gets it wrong
   --size WxH             pixels of a window or surfaceless picture (default 800x480), or the
                          screen's mode (default: what the screen prefers)
   --rotate DEGREES       0, 90, 180 or 270
@@ -54,8 +55,7 @@ usage: caryatid [OPTIONS]
   --state DIR            a folder for what outlives a power cut (default: $STATE_DIRECTORY)
   --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --seed N               another idle life (default 1)
-  --test-faults          for tests: SIGUSR1 stops the page flips, SIGRTMIN the input loop, SIGUSR2
-                         is a GPU reset
+  --test-faults          for tests: SIGUSR1 stops the page flips, SIGUSR2 is a GPU reset
   --compile-programme FILE   compile a kiosk.toml and its texts to stdout (the kiosk does this by
                          itself, in a child process, when a text changes while it runs)
   --check                look at config and pack, say what is wrong, and exit
@@ -282,7 +282,8 @@ bool take(int id, const char* text, Options* o) {
   double value = 0.0;
   switch (id) {
     case kDisplay:
-      return one_of("display", text, {"auto", "drm", "window", "surfaceless", "none"}, &o->display);
+      return one_of("display", text, {"auto", "drm", "drm-legacy", "window", "surfaceless", "none"},
+                    &o->display);
     case kSize:
       return size_of(text, o);
     case kRotate:

@@ -52,7 +52,7 @@ FILES = {
     "etc/modules-load.d/board.conf": "\n".join(m.replace("-", "_") for m in MODULES) + "\n",
     "etc/systemd/system/host-shell.service": SHELL_UNIT,
     "etc/systemd/system.conf.d/watchdog.conf":
-        "[Manager]\nRuntimeWatchdogSec=30\nShowStatus=no\n",
+        "[Manager]\nRuntimeWatchdogSec=15\nShowStatus=no\n",
     "etc/systemd/journald.conf.d/board.conf":
         "[Journal]\nStorage=volatile\nForwardToConsole=yes\nTTYPath=/dev/ttyAMA0\n",
 }
@@ -154,15 +154,7 @@ def prepare(root):
     make_initramfs(root, os.path.join(boot, "initramfs-small"), "/etc/small-init")
 
 
-def owner(root, user):
-    """User and group ids by the tree's own tables."""
-    with open(os.path.join(root, "etc/passwd"), encoding="utf-8") as table:
-        fields = next(line.split(":") for line in table if line.startswith(user + ":"))
-    return int(fields[2]), int(fields[3])
-
-
-def disk(root, payload, out, shaders=None):
-    """`shaders`: a folder with the kiosk's shader cache of an earlier run, or none."""
+def disk(root, payload, out):
     scratch = out + ".tree"
     shutil.rmtree(scratch, ignore_errors=True)
     # Hard links: the tree itself must not change, so what is written anew replaces its link.
@@ -178,13 +170,6 @@ def disk(root, payload, out, shaders=None):
     subprocess.run(["qemu-aarch64-static", "-L", scratch,
                     os.path.join(scratch, "bin/systemd-sysusers"), "--root=" + scratch],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    kept = os.path.join(shaders or "", "caryatid")
-    if os.path.isdir(kept):
-        cache = os.path.join(scratch, "var/cache/caryatid")
-        shutil.copytree(kept, cache)
-        for base, folders, files in os.walk(cache):
-            for name in ["."] + files:
-                os.chown(os.path.join(base, name), *owner(scratch, "caryatid"))
     subprocess.run(["mke2fs", "-q", "-F", "-t", "ext4", "-d", scratch, out, "768M"], check=True)
     shutil.rmtree(scratch)
 

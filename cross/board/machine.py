@@ -2,6 +2,11 @@
 
 The test on the host presses, plugs and pulls by QEMU's machine protocol (QMP) and looks inside
 through a root shell on a serial line of its own. Nothing in the program under test knows of it.
+
+The board's time: its clock moves by one nanosecond for each instruction of either core, and with
+the PC's clock while both cores wait (QEMU's -icount shift=0). So the board is one of 1000 million
+instructions a second, about a Raspberry Pi Zero 2 W with one core in use, however busy the PC is;
+only what waits for the PC's disk takes the PC's time.
 """
 
 import json
@@ -10,6 +15,10 @@ import socket
 import subprocess
 import threading
 import time
+
+
+# How long this PC may take for an answer of QEMU or of the board's shell: a guard against hanging.
+ANSWER_S = 600
 
 
 class Timeout(Exception):
@@ -30,7 +39,7 @@ def wait_for(what, seconds, probe, pause=0.25):
 
 def connect(path):
     link = socket.socket(socket.AF_UNIX)
-    link.settimeout(60)
+    link.settimeout(ANSWER_S)
     link.connect(path)
     return link
 
@@ -38,31 +47,35 @@ def connect(path):
 class Machine:
     """One run of the board. Use with `with`: it ends when that ends."""
 
-    def __init__(self, folder, kernel, initramfs, disk, size=(480, 320), options=()):
+    def __init__(self, folder, kernel, initramfs, disk, size=(320, 240)):
         self.folder = folder
         self.log = os.path.join(folder, "console.log")
         self.qmp_path = os.path.join(folder, "qmp")
         self.shell_path = os.path.join(folder, "shell")
-        self.dumps = 0
+        self.sound = os.path.join(folder, "sound.wav")
+        self.marks = 0
         self.events = []
         for path in (self.qmp_path, self.shell_path, self.log):
             if os.path.exists(path):
                 os.remove(path)
         self.command = [
-            "nice", "qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a53", "-smp", "2",
-            "-m", "1024", "-display", "none", "-nodefaults", "-no-user-config",
+            "nice", "-n", "5", "qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a53",
+            "-smp", "2", "-icount", "shift=0", "-m", "1024", "-display", "none",
+            "-nodefaults", "-no-user-config",
             "-kernel", kernel, "-initrd", initramfs,
             "-append", "console=ttyAMA0 quiet loglevel=4 panic=5 vt.global_cursor_default=0",
             "-drive", f"file={disk},if=none,id=disk,format=raw,cache=writethrough",
             "-device", "virtio-blk-pci,drive=disk",
             "-device", f"virtio-gpu-pci,id=gpu,xres={size[0]},yres={size[1]}",
             "-device", "qemu-xhci,id=xhci", "-device", "usb-kbd,id=kbd,bus=xhci.0",
+            "-audiodev", f"wav,id=sound,path={self.sound}",
+            "-device", "usb-audio,audiodev=sound,bus=xhci.0",
             "-device", "i6300esb", "-action", "watchdog=reset",
             "-serial", f"file:{self.log}",
             "-device", "virtio-serial-pci",
             "-chardev", f"socket,id=shell,path={self.shell_path},server=on,wait=off",
             "-device", "virtconsole,chardev=shell",
-            "-qmp", f"unix:{self.qmp_path},server=on,wait=off", *options]
+            "-qmp", f"unix:{self.qmp_path},server=on,wait=off"]
 
     def __enter__(self):
         self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL)
@@ -107,7 +120,7 @@ class Machine:
             self.answers.clear()
             text = json.dumps({"execute": command, "arguments": arguments})
             self.link.sendall(text.encode() + b"\n")
-            self.arrived.wait_for(lambda: self.answers, 60)
+            self.arrived.wait_for(lambda: self.answers, ANSWER_S)
             if not self.answers or "error" in self.answers[0]:
                 raise Timeout(f"QMP {command}: {self.answers[:1]}")
             return self.answers[0]["return"]
@@ -133,6 +146,11 @@ class Machine:
     def plug_keyboard(self):
         self.qmp("device_add", driver="usb-kbd", id="kbd", bus="xhci.0")
 
+    def plug_screen(self, plugged):
+        """By the kernel's switch: QEMU's own screen has no plug."""
+        state = "detect" if plugged else "off"
+        self.run(f"echo {state} >/sys/class/drm/card0-Virtual-1/status")
+
     def picture(self, name):
         """What is scanned out now, as a PPM file; its path."""
         path = os.path.join(self.folder, name + ".ppm")
@@ -141,10 +159,10 @@ class Machine:
 
     # What the test asks inside.
 
-    def run(self, command, seconds=60):
+    def run(self, command, seconds=ANSWER_S):
         """A line for the board's shell; what it writes."""
-        self.dumps += 1
-        mark = f"mark{self.dumps}"
+        self.marks += 1
+        mark = f"mark{self.marks}"
         # The mark is put together by the shell, so that the echo of the line isn't taken for it.
         self.shell_link.sendall(f"{command}; echo m\"\"{mark[1:]}:$?\n".encode())
         self.shell_link.settimeout(0.5)

@@ -20,6 +20,7 @@ struct DisplayOptions {
   std::uint8_t samples = 4;                 // Wish for multisampling of the surface; 0 none.
   // drm: the size was asked for; else the mode that the screen prefers counts.
   bool insists_on_size = false;
+  bool legacy_kms = false;  // drm: no atomic mode setting, even where the driver offers it.
   const char* title = "Caryatid";
   bool times_gpu = true;  // Fill in Flip::gpu_us where the driver can; a replay has no use for it.
 };

@@ -30,6 +30,19 @@ class Picture:
         return [self.blocks(across=across, down=down, **what) for across in (-6, -3, 0, 3, 6)
                 for down in (-3, 0, 3)]
 
+    def brightness(self):
+        return sum(self.rgb) / len(self.rgb)
+
+    def upside_down(self):
+        stride = 3 * self.width
+        rows = [self.rgb[y * stride:(y + 1) * stride] for y in reversed(range(self.height))]
+        return Picture(self.width, self.height, b"".join(rows))
+
+    def blue_for_red(self):
+        rgb = bytearray(self.rgb)
+        rgb[0::3], rgb[2::3] = self.rgb[2::3], self.rgb[0::3]
+        return Picture(self.width, self.height, bytes(rgb))
+
     def write_png(self, path):
         stride = 3 * self.width
         rows = b"".join(b"\0" + self.rgb[y * stride:(y + 1) * stride] for y in range(self.height))

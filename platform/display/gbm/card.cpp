@@ -48,7 +48,7 @@ Status complain(int error, const char* node, ErrorLine& out_error) {
 
 }  // namespace
 
-Status Card::open(ErrorLine& out_error) {
+Status Card::open(ErrorLine& out_error, bool legacy) {
   close();
   std::array<drmDevice*, kMaxCards> devices{};
   const int count = drmGetDevices2(0, devices.data(), kMaxCards);
@@ -73,13 +73,13 @@ Status Card::open(ErrorLine& out_error) {
   }
   if (count > 0) drmFreeDevices(devices.data(), count);
   if (best_fd < 0) return complain(error, refused.data(), out_error);
-  use(best_fd);
+  use(best_fd, legacy);
   return {};
 }
 
-void Card::use(int fd) {
+void Card::use(int fd, bool legacy) {
   fd_ = fd;
-  atomic_ = drmSetClientCap(fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
+  atomic_ = !legacy && drmSetClientCap(fd, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) == 0 &&
             drmSetClientCap(fd, DRM_CLIENT_CAP_ATOMIC, 1) == 0;
   std::uint64_t value = 0;
   modifiers_ = atomic_ && drmGetCap(fd, DRM_CAP_ADDFB2_MODIFIERS, &value) == 0 && value != 0;

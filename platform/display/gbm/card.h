@@ -16,7 +16,8 @@ class Card {
 
   // Opens, of the cards with connectors, the first that has a screen connected, else the first.
   // io (no_card): none, or none that may be opened; the line says which.
-  Status open(ErrorLine& out_error);
+  // `legacy`: without atomic mode setting, for a driver that promises it and gets it wrong.
+  Status open(ErrorLine& out_error, bool legacy = false);
   void close();
 
   int fd() const { return fd_; }
@@ -26,7 +27,7 @@ class Card {
   bool take_master();
 
  private:
-  void use(int fd);
+  void use(int fd, bool legacy);
 
   int fd_ = -1;
   bool atomic_ = false, modifiers_ = false;

@@ -79,7 +79,7 @@ class GbmDisplay final : public Display {
 
 Status GbmDisplay::open(const DisplayOptions& options, ErrorLine& out_error) {
   wish_ = {options.width, options.height, options.insists_on_size};
-  CARYATID_TRY(card_.open(out_error));
+  CARYATID_TRY(card_.open(out_error, options.legacy_kms));
   const bool may_wait = options.kind == DisplayKind::drm;
   if (!card_.take_master() && !may_wait) {
     set_error(out_error, "another program owns the screen");

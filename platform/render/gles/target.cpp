@@ -53,6 +53,8 @@ bool Target::create_plain(Surface& out, bool with_depth) {
 }
 
 bool Target::create_multisampled() {
+  // A CPU takes about three times as long for four samples: only pictures for files are worth it.
+  if (caps_.software && !options_.offscreen) return false;
   const auto samples = static_cast<GLsizei>(std::min(options_.samples, caps_.max_samples));
   if (samples < 2) return false;
   const bool blit = extra_.blit_framebuffer != nullptr;

@@ -159,6 +159,15 @@ TEST_F(GbmTest, WithoutAtomicCommitsTheOlderCallsAreUsed) {
   EXPECT_FALSE(card.shown[1].atomic);
 }
 
+TEST_F(GbmTest, TheDeployerMayRefuseAtomicCommits) {
+  board();
+  ASSERT_TRUE(card_.open(error_, true).ok());
+  EXPECT_FALSE(card_.atomic());
+  EXPECT_FALSE(card_.modifiers());
+  ASSERT_TRUE(card_.open(error_).ok());
+  EXPECT_TRUE(card_.atomic());
+}
+
 TEST_F(GbmTest, FlipsAreStampedByTheScreen) {
   FakeCard& card = board();
   open(card);
