@@ -84,7 +84,8 @@ GaitStyle Walker::style_at(float vigour) const {
   still.shoulders_forward_deg = style_.shoulders_forward_deg;
   still.shoulders_up_deg = style_.shoulders_up_deg;
   still.finger_curl_deg = style_.finger_curl_deg;
-  still.arm_out_deg = style_.arm_out_deg;
+  // Arms swing past the hips, but hang beside them.
+  still.arm_out_deg += style_.arm_out_deg - gait_style(GaitMood::normal).arm_out_deg;
   still.toe_out_deg = style_.toe_out_deg;
   return blend(still, style_, vigour);
 }
