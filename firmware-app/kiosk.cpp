@@ -23,7 +23,7 @@ namespace caryatid::app {
 namespace {
 
 std::atomic<bool> g_stop{false};
-std::atomic<bool> g_flips_stopped{false}, g_gpu_reset{false};
+std::atomic<bool> g_flips_stopped{false}, g_input_stopped{false}, g_gpu_reset{false};
 
 // Bytes of the pack that are read between two frames while it still loads.
 constexpr std::size_t kLoadBytesPerFrame = 512 * 1024;
@@ -60,6 +60,7 @@ body::BapConvention bap_axes_of(const std::string& name) {
 
 void Kiosk::request_stop() { g_stop = true; }
 void Kiosk::stop_flips() { g_flips_stopped = true; }
+void Kiosk::stop_input() { g_input_stopped = true; }
 void Kiosk::reset_gpu() { g_gpu_reset = true; }
 
 bool Kiosk::load_base(std::string* out_error) {
@@ -242,7 +243,7 @@ bool Kiosk::run() {
     if (options_.duration_s > 0.0 && now_s >= options_.duration_s - 1e-9) break;
     ok = frame({now_s, static_cast<float>(now_s - last_s), platform::monotonic_us()});
     if (ok && frame_number_ == 0) tell_picture("person", &start_times_.person_s);
-    watch(ok);
+    if (ok) watch();
     last_s = now_s;
     ++frame_number_;
     report_.seconds = now_s + period_s;
@@ -265,15 +266,11 @@ bool Kiosk::run() {
 }
 
 // The supervisor's heartbeat and the board's temperature; a replay has neither.
-void Kiosk::watch(bool shown) {
+void Kiosk::watch() {
   if (options_.virtual_clock) return;
   const std::int64_t now_us = platform::monotonic_us();
-  if (shown && !told_ready_) told_ready_ = notifier_.ready().ok();
-  // Where the display counts its flips, only a new one is a sign of life.
-  const bool flipped = !visible() || flip_.count == 0 || flip_.count != flips_watched_;
-  flips_watched_ = flip_.count;
-  (void)notifier_.beat(now_us,
-                       {.flipped = shown && flipped, .input_ran = true, .audio_moved = true});
+  if (!told_ready_) told_ready_ = notifier_.ready().ok();
+  (void)notifier_.beat(now_us, vitals_);
   if (service_.due(now_us)) {
     KioskStatus s = status();
     service_.fill(&s);
@@ -286,6 +283,7 @@ void Kiosk::watch(bool shown) {
 
 bool Kiosk::frame(const Tick& tick) {
   last_time_s_ = tick.time_s;
+  vitals_ = {.flipped = false, .input_ran = false, .audio_moved = false};
   load_more();
   poll_buttons(tick);
   act(tick);
@@ -325,6 +323,7 @@ void Kiosk::note_press(const platform::ButtonEvents& events, std::int64_t to_mon
 void Kiosk::poll_buttons(const Tick& tick) {
   events_.clear();
   pressed_us_ = 0;
+  if (g_input_stopped) return;
   const auto now_us = static_cast<std::int64_t>(tick.time_s * 1e6 + 0.5);
   const std::int64_t began_us = tick.start_us - now_us;
   panel_.poll(platform::monotonic_us(), events_);
@@ -334,6 +333,7 @@ void Kiosk::poll_buttons(const Tick& tick) {
   service_.control().poll(this, [](void* self, std::span<const char> line, auto& reply) {
     static_cast<Kiosk*>(self)->obey({line.data(), line.size()}, reply);
   });
+  vitals_.input_ran = true;
   note_press(events_, 0);
   for (const ButtonEvent& e : others) (void)events_.push(e);
   if (!display_) return;
@@ -488,6 +488,7 @@ bool Kiosk::draw(const Tick& tick) {
                       &list_.ambient_down, &list_.background_top, &list_.background_bottom})
     *light *= care_.light();
   // Drawn for nobody, a board would only grow warm; what changed meanwhile stays collected.
+  vitals_.flipped = !visible() || !display_;
   if (!visible()) return true;
   person_.collect_patches(&list_.patches);
   show_overlay(tick);
@@ -504,7 +505,10 @@ bool Kiosk::draw(const Tick& tick) {
   if (!display_ || g_flips_stopped) return true;
   const Status shown = display_->present();
   if (shown.code == Code::device_lost) return reopen_screen();
+  // Where the display counts its flips, only a new one is a sign of life.
+  const std::uint64_t flips_before = flip_.count;
   flip_ = display_->last_flip();
+  vitals_.flipped = shown.ok() && (flip_.count == 0 || flip_.count != flips_before);
   if (shown.ok() && flip_.count == 0) flip_.time_us = platform::monotonic_us();
   return shown.ok();
 }

@@ -64,8 +64,9 @@ class Kiosk {
   static bool list_hardware(const Options& options);
   // Async-signal-safe.
   static void request_stop();
-  // --test-faults; async-signal-safe. The first lasts, the second happens once.
+  // --test-faults; async-signal-safe. Two last, the reset happens once.
   static void stop_flips();
+  static void stop_input();
   static void reset_gpu();
 
  private:
@@ -109,7 +110,7 @@ class Kiosk {
   void choose_levels(const Tick& tick, const agent::Intentions& will);
   bool draw(const Tick& tick);
   void measure(const Tick& tick);
-  void watch(bool shown);
+  void watch();
   void obey(std::string_view line, platform::ControlReply& reply);
   bool press(std::string_view name, bool down);
   void play(std::string_view file, platform::ControlReply& reply);
@@ -160,9 +161,9 @@ class Kiosk {
   std::uint32_t decision_seen_ = 0;
   float decision_wait_s_ = 0.0f;
   lod::FrameSample sample_;
-  platform::Flip flip_;              // Of this frame.
-  std::uint64_t flips_watched_ = 0;  // Told to the supervisor.
-  std::int64_t pressed_us_ = 0;      // The first edge of a press that this frame shows; 0: none.
+  platform::Flip flip_;          // Of this frame.
+  platform::Vitals vitals_;      // Of this frame.
+  std::int64_t pressed_us_ = 0;  // The first edge of a press that this frame shows; 0: none.
   int reopened_ = 0;
   std::array<bool, kMaxTextures> texture_whole_{};
   bool refinement_ended_ = false;

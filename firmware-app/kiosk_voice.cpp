@@ -20,6 +20,7 @@ void Kiosk::open_speaker() {
 // What she says in this frame, for the mixer; her eyes know when to blink.
 const SpeechFrame& Kiosk::speak(const Tick& tick) {
   const SpeechFrame& spoken = speaker_.step(tick.time_s);
+  vitals_.audio_moved = speaker_.sound_moves();
   const bool trouble = *speaker_.trouble() != '\0';
   if (trouble && !told_trouble_)
     platform::log(platform::Event::speech_trouble, "speech: %s (captions go on)",

@@ -1,4 +1,6 @@
 // caryatid: the agent's program. Exit codes: 0 done, 1 failed at run time, 2 wrong usage.
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -51,10 +53,16 @@ int main(int argc, char** argv) {
   if (options.test_faults) {
     std::signal(SIGUSR1, [](int) { Kiosk::stop_flips(); });
     std::signal(SIGUSR2, [](int) { Kiosk::reset_gpu(); });
+    std::signal(SIGRTMIN, [](int) { Kiosk::stop_input(); });
   }
   // Large: meshes, tables and buffers of fixed size stand inside it.
-  const auto kiosk = std::make_unique<Kiosk>(options);
+  auto kiosk = std::make_unique<Kiosk>(options);
   if (!kiosk->start() || !kiosk->run()) return 1;
   close_line(options, kiosk->report());
+  std::fflush(stdout);
+  // The screen is given back first; a driver that hangs behind it must not keep the program.
+  std::signal(SIGALRM, [](int) { _exit(0); });
+  alarm(1);
+  kiosk.reset();
   return 0;
 }

@@ -55,7 +55,8 @@ usage: caryatid [OPTIONS]
   --state DIR            a folder for what outlives a power cut (default: $STATE_DIRECTORY)
   --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --seed N               another idle life (default 1)
-  --test-faults          for tests: SIGUSR1 stops the page flips, SIGUSR2 is a GPU reset
+  --test-faults          for tests: SIGUSR1 stops the page flips, SIGRTMIN the input loop, SIGUSR2
+                         is a GPU reset
   --compile-programme FILE   compile a kiosk.toml and its texts to stdout (the kiosk does this by
                          itself, in a child process, when a text changes while it runs)
   --check                look at config and pack, say what is wrong, and exit

@@ -122,6 +122,7 @@ struct Speaker::State {
   std::array<std::int16_t, kPiece> in{}, out{};
   std::size_t out_count = 0, out_sent = 0;
   std::int64_t written = 0, heard = 0;  // Samples of the audio device.
+  bool moves = true;                    // See sound_moves().
   bool fresh = false;                   // say() was called since the last step.
   bool ending = false;                  // The next frame tells that it ended.
   std::int64_t waiting_since_us = 0;
@@ -352,6 +353,7 @@ void Speaker::State::voiced_step(double time_s) {
   const std::int64_t audio_us = lockstep ? static_cast<std::int64_t>(time_s * 1e6 + 0.5) : now_us;
   const std::int64_t before = heard;
   heard = audio->heard(audio_us);
+  moves = heard > before || heard >= written;
   if (mode == Mode::waiting) waiting_step(now_us);
   if (mode == Mode::voiced) fill(now_us);
   frame.started = before == 0 && heard > 0;
@@ -415,6 +417,7 @@ const SpeechFrame& Speaker::step(double time_s) {
   f.marks.clear();
   f.started = f.ended = false;
   const bool was_speaking = s.mode != State::Mode::idle;
+  s.moves = true;
   const float from_ms = f.played_ms;
   if (s.audio)
     s.audio->update(s.lockstep ? static_cast<std::int64_t>(time_s * 1e6 + 0.5)
@@ -439,6 +442,7 @@ const SpeechFrame& Speaker::step(double time_s) {
 const SpeechFrame& Speaker::frame() const { return state_->frame; }
 std::string_view Speaker::text() const { return {state_->text.data(), state_->text_bytes}; }
 std::span<const speech::Word> Speaker::words() const { return state_->utterance.words(); }
+bool Speaker::sound_moves() const { return state_->moves; }
 const char* Speaker::trouble() const { return state_->trouble.c_str(); }
 
 }  // namespace caryatid::app

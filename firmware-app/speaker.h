@@ -89,6 +89,9 @@ class Speaker {
   // The text that is or was last spoken (as cut and mended), and its words.
   std::string_view text() const;
   std::span<const speech::Word> words() const;
+  // A sign of life of the audio device. False: sound waits to be heard, and its position stood
+  // still from the step before to the last one.
+  bool sound_moves() const;
   // Why the last utterance is silent; one line, or empty.
   const char* trouble() const;
 
