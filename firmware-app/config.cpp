@@ -37,13 +37,14 @@ class Reader {
   bool read_button(const toml::node& node, Config* out) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return refuse(node, "a button is not a table", "write [[button]]");
-    constexpr const char* kKnown[] = {"name",    "badge",    "feel", "say", "go",   "show", "do",
-                                      "gesture", "language", "gpio", "key", "code", "bit"};
+    constexpr const char* kKnown[] = {
+        "name", "badge", "feel", "say", "go",   "show",   "do",      "gesture",   "language",
+        "gpio", "key",   "code", "bit", "long", "double", "long_ms", "double_ms", "lockout_ms"};
     for (const auto& [key, value] : *table)
       if (std::find(std::begin(kKnown), std::end(kKnown), key.str()) == std::end(kKnown))
         return refuse(value, "unknown key '" + std::string(key.str()) + "'",
                       "known here: name, badge, feel, say, go, show, do, gesture, language, gpio, "
-                      "key, code, bit");
+                      "key, code, bit, long, double, long_ms, double_ms, lockout_ms");
     const std::string name = (*table)["name"].value_or(std::string());
     if (name.empty() || name.size() > 31 || name.find(' ') != std::string::npos)
       return refuse(node, "a button needs a name", "1 to 31 letters without a blank");
@@ -53,7 +54,8 @@ class Reader {
       return refuse(node, "too many buttons", "at most " + std::to_string(kMaxButtons));
     DeviceRefusal refusal;
     const auto number = static_cast<std::uint16_t>(out->buttons.names.size());
-    if (!read_button_devices(*table, number, out, &refusal))
+    if (!read_button_devices(*table, number, out, &refusal) ||
+        !read_button_timing(*table, number, out, &refusal))
       return refuse(*refusal.where, refusal.what, refusal.cure);
     return true;
   }

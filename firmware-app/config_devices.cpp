@@ -198,4 +198,44 @@ bool read_button_devices(const toml::table& button, std::uint16_t number, Config
   return true;
 }
 
+namespace {
+
+bool read_ms(const toml::table& button, const char* key, std::int64_t* io_us,
+             DeviceRefusal* out_refusal) {
+  const toml::node* node = button.get(key);
+  if (node == nullptr) return true;
+  const auto ms = number_of(button, key, 10'000);
+  if (!ms)
+    return refuse(*node, std::string(key) + " is no time", "0 to 10000 milliseconds", out_refusal);
+  *io_us = *ms * 1000;
+  return true;
+}
+
+bool read_derived(const toml::table& button, const char* key, DerivedButton derived, Config* out,
+                  DeviceRefusal* out_refusal) {
+  const toml::node* node = button.get(key);
+  if (node == nullptr) return true;
+  const int of = out->buttons.find(node->value_or(std::string()));
+  if (of < 0 || of + 1 == derived.button)
+    return refuse(*node, std::string(key) + " names no button that stands above",
+                  "write the name of an earlier [[button]]", out_refusal);
+  derived.of = static_cast<std::uint16_t>(of + 1);
+  return out->derived.push(derived) ||
+         refuse(*node, "too many long and double presses", "at most " + std::to_string(kMaxButtons),
+                out_refusal);
+}
+
+}  // namespace
+
+bool read_button_timing(const toml::table& button, std::uint16_t number, Config* out,
+                        DeviceRefusal* out_refusal) {
+  agent::ButtonTiming& timing = out->timings[number - 1u];
+  return read_ms(button, "lockout_ms", &timing.lockout_us, out_refusal) &&
+         read_ms(button, "long_ms", &timing.long_press_us, out_refusal) &&
+         read_ms(button, "double_ms", &timing.double_press_us, out_refusal) &&
+         read_derived(button, "long", {number, 0, agent::ButtonAction::held}, out, out_refusal) &&
+         read_derived(button, "double", {number, 0, agent::ButtonAction::pressed_twice}, out,
+                      out_refusal);
+}
+
 }  // namespace caryatid::app

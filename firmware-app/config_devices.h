@@ -1,5 +1,6 @@
 #pragma once
-// The keys of kiosk.toml that tie a button to a device: gpio, key, code, bit, and [[hid]].
+// The keys of kiosk.toml that tie a button to a device: gpio, key, code, bit, and [[hid]]; and
+// those that say how it is pressed: long, double, long_ms, double_ms, lockout_ms.
 #define TOML_EXCEPTIONS 0
 #include <toml++/toml.h>
 
@@ -20,5 +21,8 @@ bool read_hid_devices(const toml::table& root, Config* out, DeviceRefusal* out_r
 // Reads gpio, key, code and bit of one [[button]] table for button `number` (from 1).
 bool read_button_devices(const toml::table& button, std::uint16_t number, Config* out,
                          DeviceRefusal* out_refusal);
+// Reads the times of one button, and which other button it is when held long or pressed twice.
+bool read_button_timing(const toml::table& button, std::uint16_t number, Config* out,
+                        DeviceRefusal* out_refusal);
 
 }  // namespace caryatid::app

@@ -555,8 +555,14 @@ void Kiosk::measure(const Tick& tick) {
   m.shading = static_cast<int>(list_.shading);
   m.emotion = agent_->emotion();
   m.speech = speech_metrics();
-  if (pressed_us_ != 0 && visible() && !options_.virtual_clock)
-    m.reaction_ms = static_cast<double>((display_ ? flip_.time_us : now_us) - pressed_us_) * 1e-3;
+  if (pressed_us_ != 0 && visible()) {
+    // Under a virtual clock the frame is on the screen when the board's time for it is over.
+    const auto frame_us = static_cast<std::int64_t>(m.frame_ms * 1e3);
+    const std::int64_t shown_us = options_.virtual_clock ? tick.start_us + frame_us
+                                  : display_             ? flip_.time_us
+                                                         : now_us;
+    m.reaction_ms = static_cast<double>(shown_us - pressed_us_) * 1e-3;
+  }
   if (frame_number_ == 1) m.start = start_times_;
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();

@@ -73,6 +73,8 @@ KioskStatus Kiosk::status() const {
   s.frames = frame_number_;
   s.late_frames = report_.late_frames;
   s.presses = presses_;
+  s.rejected_edges = panel_.rejected_edges();
+  s.button_lost = panel_.device_lost();
   s.triangles = person_.triangle_count();
   s.cpu_ms = sample_.cpu_us == lod::FrameSample::kUnknown ? 0.0 : sample_.cpu_us * 1e-3;
   s.emotion = agent_->emotion();

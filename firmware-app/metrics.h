@@ -27,7 +27,8 @@ struct FrameMetrics {
   double cpu_ms = 0.0;
   double gpu_ms = -1.0;  // Negative: the driver has no timer; null in the file.
   bool late = false;
-  // From the edge of a press to the flip that first shows it; negative: no press in this frame.
+  // From the edge of a press (a GPIO line's: the kernel's time stamp) to the flip that first shows
+  // it; negative: no press in this frame.
   double reaction_ms = -1.0;
   std::uint32_t triangles = 0;
   std::span<const std::uint32_t> lod;  // Triangles by object of the pack.

@@ -14,21 +14,28 @@ class Panel {
   // Opens what `config` names. False: `out_error` is one line; a GPIO line that is not there at
   // start is an error of the configuration, an unplugged USB device is not.
   bool open(const Config& config, std::string* out_error);
-  // Appends presses and releases up to `now_us` (monotonic). Says once on stderr when a device is
-  // lost and when it is back. Once a frame; no allocation of ours.
+  // Appends presses and releases up to `now_us` (monotonic); long and double presses as those of
+  // the buttons that stand for them. Logs once when a device is lost, with the reason, and when it
+  // is back. Once a frame; no allocation of ours.
   void poll(std::int64_t now_us, platform::ButtonEvents& out);
-  const agent::Debouncer& debouncer() const { return debouncer_; }
+  // Edges of all buttons that were bounce. Growing while nobody presses: a bad switch or cable.
+  std::uint64_t rejected_edges() const;
+  // A device of the configuration is away.
+  bool device_lost() const { return gpio_.lost || hid_.lost; }
 
  private:
   struct Source {
     std::unique_ptr<platform::Buttons> buttons;
     const char* name = "";
     bool lost = false;
+    std::uint16_t reason = 0;  // GpioFault or HidFault, as logged last.
   };
   void poll_source(Source& source, std::int64_t now_us);
+  void tell(Source& source, Status status);
 
   Source gpio_, hid_;
   agent::Debouncer debouncer_;
+  FixedVector<DerivedButton, kMaxButtons> derived_;
   agent::ButtonSignals signals_;
   platform::ButtonEvents raw_;
 };

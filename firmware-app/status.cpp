@@ -52,6 +52,8 @@ std::string_view format_json(const KioskStatus& s, std::span<char> out) {
     t.add("\"temperature_celsius\":%.1f,", s.temperature_celsius);
   else
     t.add("\"temperature_celsius\":null,");
+  t.add("\"rejected_edges\":%llu,\"button_lost\":%s,", whole(s.rejected_edges),
+        boolean(s.button_lost));
   t.add("\"under_voltage\":%s,\"throttled\":%s,\"builtin_face\":%s,\"heartbeat_late\":%s,",
         boolean(s.under_voltage), boolean(s.throttled), boolean(s.builtin_face),
         boolean(s.heartbeat_late));
@@ -74,12 +76,14 @@ std::string_view format_prometheus(const KioskStatus& s, std::span<char> out) {
   count("frames_total", s.frames);
   count("late_frames_total", s.late_frames);
   count("presses_total", s.presses);
+  count("rejected_edges_total", s.rejected_edges);
   count("allocations_after_seal_total", s.allocations_since_seal);
   if (s.start.picture_s >= 0.0) gauge("start_picture_seconds", s.start.picture_s);
   if (s.start.person_s >= 0.0) gauge("start_person_seconds", s.start.person_s);
   gauge("triangles", s.triangles);
   gauge("frame_cpu_seconds", s.cpu_ms * 1e-3);
   if (s.has_temperature) gauge("temperature_celsius", s.temperature_celsius);
+  gauge("button_lost", s.button_lost ? 1.0 : 0.0);
   gauge("under_voltage", s.under_voltage ? 1.0 : 0.0);
   gauge("throttled", s.throttled ? 1.0 : 0.0);
   gauge("builtin_face", s.builtin_face ? 1.0 : 0.0);

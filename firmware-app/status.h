@@ -17,6 +17,8 @@ struct KioskStatus {
   std::uint64_t starts = 0;    // Of the program on this board, where a state folder remembers them.
   bool unclean_start = false;  // The last run ended without a goodbye: a crash or a power cut.
   std::uint64_t frames = 0, late_frames = 0, presses = 0;
+  std::uint64_t rejected_edges = 0;  // Bounce of GPIO and USB buttons.
+  bool button_lost = false;          // A device of buttons is away.
   std::uint32_t triangles = 0;
   double cpu_ms = 0.0;  // Of the last frame.
   emotion::Emotion emotion = emotion::Emotion::calm;

@@ -75,11 +75,18 @@ enum class HidFault : std::uint16_t {
   no_permission,  // It is there and cannot be opened: the user is not in its group.
 };
 
+// Who looks again for a device that is away. That allocates inside hidapi and takes milliseconds,
+// or far longer while a device is being plugged in.
+enum class HidSearch : std::uint8_t {
+  beside_frames,  // A thread of its own: poll() never waits for it.
+  in_poll,        // poll() itself: what is found depends on the given times alone.
+};
+
 // Opens the service. A device that is not there is no error: it is looked for with growing pauses,
 // at most 8 s, and poll() says device_lost (missing or no_permission) as long as one is away.
 // A key that is down when its device is plugged in must be released before it counts.
-// Allocates at start and, inside hidapi, when it looks for a device; that takes some milliseconds.
-Status open_hid_buttons(std::span<const HidDevice> devices, std::unique_ptr<Buttons>& out,
-                        ErrorLine& out_error);
+// Allocates; looks for every device once.
+Status open_hid_buttons(std::span<const HidDevice> devices, HidSearch search,
+                        std::unique_ptr<Buttons>& out, ErrorLine& out_error);
 
 }  // namespace caryatid::platform

@@ -27,7 +27,7 @@ endif()
 message(STATUS "buttons: GPIO by ${gpiod_backend}; hidapi: ${HIDAPI_VERSION}")
 if(HIDAPI_FOUND)
   add_library(caryatid_hid_buttons STATIC platform/buttons/hidapi/hid_buttons.cpp
-    platform/buttons/hidapi/hid_report.cpp)
+    platform/buttons/hidapi/hid_report.cpp platform/buttons/hidapi/hid_search.cpp)
   target_link_libraries(caryatid_hid_buttons PUBLIC caryatid_base
     PRIVATE PkgConfig::HIDAPI caryatid_board_flags)
 endif()

@@ -21,9 +21,10 @@ endif()
 if(HIDAPI_FOUND)
   add_executable(unit_platform_buttons_hid ${buttons_tests}/hid_test.cpp
     ${buttons_tests}/fake_hidapi.cpp ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_buttons.cpp
-    ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_report.cpp)
+    ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_report.cpp
+    ${CMAKE_SOURCE_DIR}/platform/buttons/hidapi/hid_search.cpp)
   target_link_libraries(unit_platform_buttons_hid PRIVATE caryatid_base caryatid_flags
-    GTest::gtest_main)
+    GTest::gtest_main Threads::Threads)
   add_test(NAME unit_platform_buttons_hid COMMAND unit_platform_buttons_hid)
 endif()
 # The screen without a card: the real DRM code linked with a fake of libdrm.
@@ -44,6 +45,14 @@ add_executable(unit_firmware_config ${CMAKE_CURRENT_LIST_DIR}/firmware-app/confi
   ${CMAKE_SOURCE_DIR}/firmware-app/screen_care.cpp)
 target_link_libraries(unit_firmware_config PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
 add_test(NAME unit_firmware_config COMMAND unit_firmware_config)
+add_executable(unit_firmware_panel ${CMAKE_CURRENT_LIST_DIR}/firmware-app/panel_test.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/panel.cpp ${CMAKE_SOURCE_DIR}/firmware-app/config.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/config_devices.cpp
+  ${CMAKE_SOURCE_DIR}/firmware-app/config_screen.cpp)
+target_compile_definitions(unit_firmware_panel PRIVATE CARYATID_HID_BUTTONS=1)
+target_link_libraries(unit_firmware_panel PRIVATE caryatid_agent caryatid_board caryatid_flags
+  GTest::gtest_main)
+add_test(NAME unit_firmware_panel COMMAND unit_firmware_panel)
 caryatid_unit(firmware-app/texts caryatid_texts)
 add_executable(unit_firmware_pictures ${CMAKE_CURRENT_LIST_DIR}/firmware-app/pictures_test.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/pictures.cpp)

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
+#include <memory>
 #include <vector>
 
 #include "platform/buttons/hid.h"
+#include "platform/buttons/hidapi/hid_search.h"
 #include "platform/retry.h"
 
 namespace caryatid::platform {
@@ -28,15 +29,25 @@ Status refuse(HidFault fault, const char* text, ErrorLine& out_error) {
 // One listed device, there or not.
 class Device {
  public:
-  explicit Device(const HidDevice& device) : reader_(device) {}
+  // searcher: nullptr: the frame itself searches.
+  Device(const HidDevice& device, std::size_t slot, HidSearcher* searcher)
+      : reader_(device), slot_(slot), searcher_(searcher) {}
   ~Device() {
     if (handle_ != nullptr) hid_close(handle_);
   }
-  Device(Device&& other) noexcept
-      : reader_(other.reader_), handle_(std::exchange(other.handle_, nullptr)) {}
-  Device& operator=(Device&&) = delete;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // At start, which may wait.
+  void search_now() {
+    const HidFound found = search_hid(reader_.device());
+    handle_ = found.handle;
+    fault_ = found.fault;
+  }
 
   HidFault poll(std::int64_t now_us, ButtonEvents& out) {
+    if (!polled_) settle(now_us);
+    polled_ = true;
     if (handle_ == nullptr && !look_for(now_us)) return fault_;
     std::uint8_t report[kReport_bytes];
     for (int i = 0; i < kReportsPerPoll; ++i) {
@@ -51,27 +62,31 @@ class Device {
   }
 
  private:
+  void settle(std::int64_t now_us) {
+    settled_at_us_ = now_us + kSettle_us;
+    retry_.start(now_us);
+  }
+
   bool look_for(std::int64_t now_us) {
-    if (searched_ && !retry_.due(now_us)) return false;
-    fault_ = HidFault::missing;
-    const HidDevice& wanted = reader_.device();
-    hid_device_info* const found = hid_enumerate(wanted.vendor_id, wanted.product_id);
-    for (const hid_device_info* info = found; info != nullptr; info = info->next) {
-      if (wanted.usage_page != 0 && info->usage_page != wanted.usage_page) continue;
-      if (wanted.usage != 0 && info->usage != wanted.usage) continue;
-      handle_ = hid_open_path(info->path);
-      if (handle_ != nullptr) break;
-      fault_ = HidFault::no_permission;
-    }
-    hid_free_enumeration(found);
-    if (handle_ != nullptr) {
-      settled_at_us_ = now_us + kSettle_us;
-    } else if (searched_) {
-      retry_.failed(now_us);
+    HidFound found;
+    if (asked_) {
+      if (!searcher_->take(slot_, &found)) return false;
+      asked_ = false;
+    } else if (!retry_.due(now_us)) {
+      return false;
+    } else if (searcher_ != nullptr) {
+      searcher_->ask(slot_, reader_.device());
+      asked_ = true;
+      return false;
     } else {
-      retry_.start(now_us);
+      found = search_hid(reader_.device());
     }
-    searched_ = true;
+    handle_ = found.handle;
+    fault_ = found.fault;
+    if (handle_ != nullptr)
+      settle(now_us);
+    else
+      retry_.failed(now_us);
     return handle_ != nullptr;
   }
 
@@ -85,22 +100,24 @@ class Device {
   }
 
   HidReader reader_;
+  std::size_t slot_;
+  HidSearcher* searcher_;
   hid_device* handle_ = nullptr;
   Retry retry_;
   std::int64_t settled_at_us_ = 0;
-  bool searched_ = false;
+  bool polled_ = false, asked_ = false;
   HidFault fault_ = HidFault::missing;
 };
 
 class HidButtons final : public Buttons {
  public:
-  HidButtons() { devices_.reserve(kMaxHidDevices); }
   ~HidButtons() override {
+    searcher_.stop();
     devices_.clear();
     hid_exit();
   }
 
-  Status open(std::span<const HidDevice> devices, ErrorLine& out_error) {
+  Status open(std::span<const HidDevice> devices, HidSearch search, ErrorLine& out_error) {
     if (devices.size() > kMaxHidDevices)
       return refuse(HidFault::bad_config, "at most 4 HID devices", out_error);
     for (const HidDevice& device : devices) {
@@ -111,27 +128,36 @@ class HidButtons final : public Buttons {
           return refuse(HidFault::bad_config, "a HID key needs a button from 1 to 16", out_error);
     }
     if (hid_init() != 0) return refuse(HidFault::no_hidapi, "hidapi does not start", out_error);
-    for (const HidDevice& device : devices) devices_.emplace_back(device);
+    const bool beside = search == HidSearch::beside_frames;
+    if (beside && !searcher_.start())
+      return refuse(HidFault::no_hidapi,
+                    "no thread to look for devices; raise TasksMax of the service", out_error);
+    for (const HidDevice& device : devices) {
+      devices_.push_back(
+          std::make_unique<Device>(device, devices_.size(), beside ? &searcher_ : nullptr));
+      devices_.back()->search_now();
+    }
     return {};
   }
 
   Status poll(std::int64_t now_us, ButtonEvents& out) override {
     HidFault worst = HidFault::none;
-    for (Device& device : devices_) worst = std::max(worst, device.poll(now_us, out));
+    for (const auto& device : devices_) worst = std::max(worst, device->poll(now_us, out));
     if (worst == HidFault::none) return {};
     return {Code::device_lost, static_cast<std::uint16_t>(worst)};
   }
 
  private:
-  std::vector<Device> devices_;
+  HidSearcher searcher_;
+  std::vector<std::unique_ptr<Device>> devices_;
 };
 
 }  // namespace
 
-Status open_hid_buttons(std::span<const HidDevice> devices, std::unique_ptr<Buttons>& out,
-                        ErrorLine& out_error) {
+Status open_hid_buttons(std::span<const HidDevice> devices, HidSearch search,
+                        std::unique_ptr<Buttons>& out, ErrorLine& out_error) {
   auto buttons = std::make_unique<HidButtons>();
-  CARYATID_TRY(buttons->open(devices, out_error));
+  CARYATID_TRY(buttons->open(devices, search, out_error));
   out = std::move(buttons);
   return {};
 }

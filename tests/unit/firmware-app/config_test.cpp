@@ -96,6 +96,14 @@ TEST_F(ConfigTest, WrongDevicesAreRefusedWithTheirLine) {
   expect_refused(kKeyboard + "kind = 'box'\n" + button("bit = 512"), "8", "no place");
 }
 
+TEST_F(ConfigTest, LongAndDoublePressesAreOfEarlierButtons) {
+  const std::string two = "[[button]]\nname='a'\n[[button]]\nname='b'\n";
+  expect_refused(two + "long='c'\n", "5", "no button that stands above");
+  expect_refused(two + "double='b'\n", "5", "no button that stands above");
+  expect_refused(two + "long_ms=-1\n", "5", "no time");
+  expect_refused(two + "lockout_ms='x'\n", "5", "no time");
+}
+
 TEST_F(ConfigTest, TooManyDevicesAreRefused) {
   std::string many;
   for (std::size_t i = 0; i <= platform::kMaxHidDevices; ++i) many += kKeyboard;

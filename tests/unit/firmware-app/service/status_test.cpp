@@ -17,6 +17,7 @@ KioskStatus busy() {
   s.starts = 3;
   s.frames = 375;
   s.presses = 7;
+  s.rejected_edges = 40;
   s.emotion = emotion::Emotion::joy;
   s.has_temperature = true;
   s.temperature_celsius = 61.2;
@@ -33,6 +34,7 @@ TEST(Status, JsonReadsBackAndHasNoNewline) {
   const auto json = nlohmann::json::parse(line);
   EXPECT_EQ(json["frames"], 375);
   EXPECT_EQ(json["emotion"], "joy");
+  EXPECT_EQ(json["rejected_edges"], 40);
   EXPECT_EQ(json["under_voltage"], true);
   EXPECT_EQ(json["picture_s"], 0.125);
   EXPECT_EQ(json["person_s"], 0.5);
@@ -59,7 +61,7 @@ TEST(Status, PrometheusTextHasATypeAndAValueForEachName) {
     EXPECT_EQ(name.ends_with("_total"), kind == "counter") << name;
     EXPECT_GE(value, 0.0);
   }
-  EXPECT_EQ(metrics, 17);
+  EXPECT_EQ(metrics, 19);
 }
 
 TEST(Status, NothingIsWrittenInPieces) {

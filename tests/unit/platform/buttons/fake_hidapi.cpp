@@ -3,7 +3,9 @@
 #include <hidapi/hidapi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 using caryatid::platform::testing::FakeHid;
 using caryatid::platform::testing::hid_world;
@@ -20,6 +22,12 @@ int hid_exit(void) { return 0; }
 
 hid_device_info* hid_enumerate(unsigned short vendor_id, unsigned short product_id) {
   ++hid_world.searches;
+  // At most ten seconds: a caller that waits for it fails its test, it does not hang.
+  for (int i = 0; hid_world.hangs && i < 10'000; ++i) {
+    hid_world.is_hanging = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  hid_world.is_hanging = false;
   hid_device_info* first = nullptr;
   for (FakeHid& device : hid_world.devices) {
     if (!device.plugged || device.vendor_id != vendor_id || device.product_id != product_id)
@@ -46,6 +54,7 @@ hid_device* hid_open_path(const char* path) {
   for (FakeHid& device : hid_world.devices)
     if (device.path == path && device.plugged && !device.forbidden) {
       ++device.open_count;
+      ++hid_world.opens;
       return new hid_device{&device};
     }
   return nullptr;

@@ -1,5 +1,6 @@
 #pragma once
 // USB without a port: hidapi's functions, linked in place of the library, over this small world.
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <list>
@@ -17,10 +18,22 @@ struct FakeHid {
   std::deque<std::vector<std::uint8_t>> reports;
 };
 
+// A number or flag that two threads look at, in a world that can be begun anew.
+template <class T>
+struct Shared : std::atomic<T> {
+  using std::atomic<T>::atomic;
+  Shared& operator=(const Shared& other) {
+    this->store(other.load());
+    return *this;
+  }
+  T operator=(T value) { return std::atomic<T>::operator=(value); }
+};
+
 struct HidWorld {
   std::list<FakeHid> devices;
   int init_result = 0;
-  int searches = 0;
+  Shared<int> searches{0}, opens{0};
+  Shared<bool> hangs{false}, is_hanging{false};  // hid_enumerate.
 };
 
 inline HidWorld hid_world;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <thread>
 #include <vector>
 
 #include "core/base/random.h"
@@ -64,7 +65,8 @@ class HidTest : public ::testing::Test {
   }
   FakeHid& device() { return hid_world.devices.front(); }
   Status open(std::initializer_list<HidDevice> devices) {
-    return open_hid_buttons(std::span(devices.begin(), devices.size()), buttons_, error_);
+    return open_hid_buttons(std::span(devices.begin(), devices.size()), HidSearch::in_poll,
+                            buttons_, error_);
   }
   // Opened, and the settling time is over at kSettled_us.
   void open_settled(const HidDevice& wanted) {
@@ -258,12 +260,15 @@ TEST(Hid, WrongConfigurationsAreRefused) {
   std::unique_ptr<Buttons> buttons;
   ErrorLine error;
   HidDevice nobody;
-  EXPECT_EQ(open_hid_buttons({&nobody, 1}, buttons, error).code, Code::invalid_argument);
+  EXPECT_EQ(open_hid_buttons({&nobody, 1}, HidSearch::in_poll, buttons, error).code,
+            Code::invalid_argument);
   HidDevice wrong_button = keyboard();
   ASSERT_TRUE(wrong_button.keys.push(key(0, 9)));
-  EXPECT_EQ(open_hid_buttons({&wrong_button, 1}, buttons, error).code, Code::invalid_argument);
+  EXPECT_EQ(open_hid_buttons({&wrong_button, 1}, HidSearch::in_poll, buttons, error).code,
+            Code::invalid_argument);
   const std::vector<HidDevice> many(kMaxHidDevices + 1, keyboard());
-  EXPECT_EQ(open_hid_buttons(many, buttons, error).code, Code::invalid_argument);
+  EXPECT_EQ(open_hid_buttons(many, HidSearch::in_poll, buttons, error).code,
+            Code::invalid_argument);
   EXPECT_GT(error.size(), 0u);
 }
 
@@ -273,10 +278,69 @@ TEST(Hid, WithoutHidapiTheErrorSaysSo) {
   std::unique_ptr<Buttons> buttons;
   ErrorLine error;
   const HidDevice device = keyboard();
-  EXPECT_EQ(open_hid_buttons({&device, 1}, buttons, error).detail,
+  EXPECT_EQ(open_hid_buttons({&device, 1}, HidSearch::in_poll, buttons, error).detail,
             static_cast<std::uint16_t>(HidFault::no_hidapi));
   EXPECT_EQ(buttons, nullptr);
   hid_world = {};
+}
+
+// A search that hangs inside hidapi, as while a hub starts: frames go on, and the device works when
+// the search comes back.
+TEST(Hid, NoFrameWaitsForASearch) {
+  hid_world = {};
+  FakeHid away;
+  away.path = "/dev/hidraw0";
+  away.vendor_id = 0x1234;
+  away.product_id = 0x0001;
+  away.plugged = false;
+  hid_world.devices.push_back(away);
+  std::unique_ptr<Buttons> buttons;
+  ErrorLine error;
+  const HidDevice wanted = keyboard();
+  ASSERT_TRUE(open_hid_buttons({&wanted, 1}, HidSearch::beside_frames, buttons, error).ok());
+  hid_world.devices.front().plugged = true;
+  hid_world.hangs = true;
+  ButtonEvents events;
+  std::int64_t now_us = 0;
+  const auto frame = [&] {
+    now_us += 33'333;
+    events.clear();
+    return buttons->poll(now_us, events);
+  };
+  while (!hid_world.is_hanging) EXPECT_EQ(frame().code, Code::device_lost);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(frame().code, Code::device_lost);
+  EXPECT_TRUE(hid_world.is_hanging) << "the search was waited for";
+  hid_world.hangs = false;
+  while (!frame().ok()) std::this_thread::yield();
+  hid_world.devices.front().reports = {boot_report({}), boot_report({kA})};
+  now_us += kSettled_us;
+  EXPECT_TRUE(frame().ok());
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_TRUE(events[0].pressed);
+  buttons.reset();
+  EXPECT_EQ(hid_world.devices.front().open_count, 0);
+}
+
+// What was found when nobody wants it any more is closed again.
+TEST(Hid, AnAnswerThatNobodyTakesIsClosed) {
+  hid_world = {};
+  FakeHid away;
+  away.path = "/dev/hidraw0";
+  away.vendor_id = 0x1234;
+  away.product_id = 0x0001;
+  away.plugged = false;
+  hid_world.devices.push_back(away);
+  std::unique_ptr<Buttons> buttons;
+  ErrorLine error;
+  const HidDevice wanted = keyboard();
+  ASSERT_TRUE(open_hid_buttons({&wanted, 1}, HidSearch::beside_frames, buttons, error).ok());
+  hid_world.devices.front().plugged = true;
+  ButtonEvents events;
+  EXPECT_EQ(buttons->poll(0, events).code, Code::device_lost);
+  EXPECT_EQ(buttons->poll(1'000'000, events).code, Code::device_lost);  // Asks.
+  while (hid_world.opens == 0) std::this_thread::yield();
+  buttons.reset();
+  EXPECT_EQ(hid_world.devices.front().open_count, 0);
 }
 
 // Property: any bytes at all leave presses and releases alternating, and nothing pressed after the
