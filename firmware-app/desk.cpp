@@ -40,11 +40,10 @@ bool read_pictures(const std::string& config, const agent::Programme& programme,
 
 }  // namespace
 
-bool Desk::compile(const std::string& config, CompiledProgramme* out) {
+bool Desk::compile(ProgrammeFiles files, CompiledProgramme* out) {
   const Result<pack::FontView> font = pack::read_font(builtin_font());
   if (!font.ok()) return false;
   font_ = font.value;
-  ProgrammeFiles files(config, builtin_programme());
   *out = compile_programme(files, font_);
   files_read_ = files.names_read();
   return !out->block.empty();
@@ -52,17 +51,32 @@ bool Desk::compile(const std::string& config, CompiledProgramme* out) {
 
 bool Desk::open(const std::string& config) {
   CompiledProgramme compiled;
-  const bool good = compile(config, &compiled);
+  const bool good = compile({config, builtin_programme()}, &compiled);
   print(compiled.messages);
   config_ = config;
   compiled_ = std::move(compiled.block);
   return good;
 }
 
+bool Desk::open_notice(const std::string& config) {
+  constexpr const char* kNotice = "out_of_order.toml";
+  CompiledProgramme compiled;
+  const ProgrammeFiles beside(config, {});
+  const bool own = !config.empty() && beside.exists(kNotice);
+  bool good = own && open(beside.full_name(kNotice));
+  if (!good) {
+    good = compile({"", builtin_programme(), kNotice}, &compiled);
+    print(compiled.messages);
+    config_.clear();
+    compiled_ = std::move(compiled.block);
+  }
+  return good;
+}
+
 bool Desk::check(const std::string& config) {
   Desk desk;
   CompiledProgramme compiled;
-  const bool good = desk.compile(config, &compiled);
+  const bool good = desk.compile({config, builtin_programme()}, &compiled);
   print(compiled.messages);
   if (!good) return false;
   std::vector<std::uint32_t> words((compiled.block.size() + 3) / 4);

@@ -26,6 +26,9 @@ class Desk {
   // False: it can't be used at all; open another one. The built-in one is refused by a fault of the
   // build alone.
   bool open(const std::string& config);
+  // In place of the programme: a notice that nothing works, out_of_order.toml beside `config` or
+  // the built-in one. False: a fault of the build.
+  bool open_notice(const std::string& config);
   // Full names of the files that the programme was made of; none for the built-in one.
   const std::vector<std::string>& files_read() const { return files_read_; }
   // The same for --check: false when anything was said.
@@ -58,7 +61,7 @@ class Desk {
   const agent::Programme& programme() const { return guide_.programme(); }
 
  private:
-  bool compile(const std::string& config, CompiledProgramme* out);
+  bool compile(ProgrammeFiles files, CompiledProgramme* out);
   void adopt();
   void complete(agent::SignboardInput* io_frame) const;
 

@@ -95,7 +95,8 @@ bool Kiosk::open_person() {
   std::string error;
   if (!options_.pack.empty()) {
     if (pack_file_.open(options_.pack, &error) && load_base(&error)) return true;
-    platform::log(Event::pack_refused, "%s (the built-in face stands in)", error.c_str());
+    platform::log(Event::pack_refused, "%s (the built-in face stands in, out of order)",
+                  error.c_str());
     pack_refused_ = true;
   }
   if (pack_file_.open_builtin(&error) && load_base(&error)) return true;
@@ -200,7 +201,7 @@ bool Kiosk::start() {
   if (!options_.play.empty() && !player_.open(options_.play, &error)) return refuse(error);
   if (!open_person()) return false;
   if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) return refuse(error);
-  if (!desk_.take_memory(memory_.arena()))
+  if ((pack_refused_ && !desk_.open_notice(options_.config)) || !desk_.take_memory(memory_.arena()))
     return refuse("the built-in programme is damaged; build again");
   if (!open_renderer() || !open_outputs() || !open_devices()) return false;
   care_ = ScreenCare(config_.screen);

@@ -14,6 +14,11 @@ bool Panel::open(const Config& config, std::string* out_error) {
   Status status;
   if (!config.gpio.empty())
     status = platform::open_gpio_buttons(config.gpio.span(), gpio_.buttons, error);
+  if (!status.ok() && gpio_.buttons) {
+    platform::log(platform::Event::button_lost, "%s; going on without it", error.c_str());
+    gpio_.lost = true;
+    status = {};
+  }
 #ifdef CARYATID_HID_BUTTONS
   if (status.ok() && !config.hid.empty())
     status = platform::open_hid_buttons(config.hid.span(), platform::HidSearch::beside_frames,
@@ -30,13 +35,12 @@ bool Panel::open(const Config& config, std::string* out_error) {
 
 void Panel::tell(Source& source, Status status) {
   const bool lost = status.code == Code::device_lost;
-  const std::uint16_t reason = lost ? status.detail : std::uint16_t{0};
+  const std::uint16_t reason = lost && &source == &hid_ ? status.detail : std::uint16_t{0};
   if (lost == source.lost && reason == source.reason) return;
   source.lost = lost;
   source.reason = reason;
   if (!lost) return platform::log(platform::Event::button_found, "%s is there", source.name);
-  const bool forbidden =
-      &source == &hid_ && reason == static_cast<std::uint16_t>(platform::HidFault::no_permission);
+  const bool forbidden = reason == static_cast<std::uint16_t>(platform::HidFault::no_permission);
   platform::log(platform::Event::button_lost,
                 forbidden ? "%s may not be opened; add the user to the group input, or a udev rule "
                             "for the device"

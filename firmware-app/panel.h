@@ -11,8 +11,8 @@ namespace caryatid::app {
 
 class Panel {
  public:
-  // Opens what `config` names. False: `out_error` is one line; a GPIO line that is not there at
-  // start is an error of the configuration, an unplugged USB device is not.
+  // Opens what `config` names; what is not there or is refused is logged and looked for again: a
+  // kiosk without buttons still shows its person. False: `out_error` is one line.
   bool open(const Config& config, std::string* out_error);
   // Appends presses and releases up to `now_us` (monotonic); long and double presses as those of
   // the buttons that stand for them. Logs once when a device is lost, with the reason, and when it
@@ -28,7 +28,7 @@ class Panel {
     std::unique_ptr<platform::Buttons> buttons;
     const char* name = "";
     bool lost = false;
-    std::uint16_t reason = 0;  // GpioFault or HidFault, as logged last.
+    std::uint16_t reason = 0;  // HidFault as logged last; GPIO's is told when it is opened.
   };
   void poll_source(Source& source, std::int64_t now_us);
   void tell(Source& source, Status status);

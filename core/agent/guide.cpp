@@ -154,7 +154,7 @@ const Guidance& Guide::step(float dt_s, std::span<const ButtonEvent> events, con
   }
   for (const ButtonEvent& e : events)
     if (e.pressed && e.button >= 1 && e.button <= programme_.buttons.size()) press(e.button);
-  out_.visited = since_visit_s_ < after_s;
+  out_.visited = since_visit_s_ < after_s || programme_.header->always_shown != 0;
   out_.asleep = schedule.sleeps != 0 && !is_open(schedule, now) && !out_.visited;
   const bool sign = attract.every_s > 0 && since_sign_s_ >= static_cast<float>(attract.every_s);
   if (!out_.visited && !out_.asleep && !speaking && sign) {

@@ -20,8 +20,9 @@ struct Guidance {
 
   std::uint16_t say = kNone;  // Text that was said last.
   std::uint16_t page = 0, language = 0, picture = kNone;
-  bool visited = false;  // Somebody is at the kiosk: the page is shown.
-  bool asleep = false;   // Closed, and nobody there: dark, she is away.
+  bool visited =
+      false;  // Somebody is at the kiosk, or the programme is a notice: the page is shown.
+  bool asleep = false;  // Closed, and nobody there: dark, she is away.
   bool large_text = false, high_contrast = false, captions = true;
   float volume = 0.8f;  // 0..1: setting, night and the visitor's wish.
 };

@@ -164,7 +164,8 @@ struct ProgrammeHeader {
   std::uint32_t font_crc;           // Of the font whose glyphs it names.
   Ref section[kProgrammeSections];  // first: offset in bytes; count: elements.
   std::uint32_t text_count;         // Lines are text_count * languages.
-  std::uint16_t start_page, reserved;
+  std::uint16_t start_page;
+  std::uint16_t always_shown;  // 1: a notice, there for nobody too.
   Schedule schedule;
   Attract attract;
 };

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::array kDays = {"monday", "tuesday",  "wednesday", "thursday",
                               "friday", "saturday", "sunday"};
-constexpr std::array kRootKeys = {"languages", "start",   "volume",  "sleep",     "hours",
-                                  "night",     "attract", "picture", "variables", "page",
-                                  "button",    "hid",     "screen"};
+constexpr std::array kRootKeys = {"languages", "start",   "volume",  "sleep",       "hours",
+                                  "night",     "attract", "picture", "variables",   "page",
+                                  "button",    "hid",     "screen",  "always_shown"};
 constexpr std::array kPageKeys = {"name",    "title", "body", "say",     "show",
                                   "gesture", "feel",  "on",   "language"};
 
@@ -321,6 +321,7 @@ void ProgrammeReader::read(const toml::table& root) {
   if (const toml::node* start = root.get("start"))
     builder_.start_page =
         static_cast<std::uint16_t>(std::max(find(page_names_, *start, "page"), 0));
+  builder_.always_shown = root["always_shown"].value_or(false);
   read_schedule(root);
 }
 

@@ -78,6 +78,7 @@ std::vector<std::byte> ProgrammeBuilder::write(std::uint32_t font_crc) const {
   header.font_crc = font_crc;
   header.text_count = text_count;
   header.start_page = start_page;
+  header.always_shown = always_shown ? 1 : 0;
   header.schedule = schedule;
   header.attract = attract;
   std::vector<std::byte> block(sizeof header);

@@ -21,6 +21,7 @@ class ProgrammeBuilder {
   std::vector<agent::Value> values;
   std::uint32_t text_count = 0;
   std::uint16_t start_page = 0;
+  bool always_shown = false;
   agent::Schedule schedule;
   agent::Attract attract;
 

@@ -55,10 +55,11 @@ std::size_t mend_utf8(std::string* io_text) {
   return bad_line;
 }
 
-ProgrammeFiles::ProgrammeFiles(const std::string& config, std::vector<BuiltinFile> builtin)
+ProgrammeFiles::ProgrammeFiles(const std::string& config, std::vector<BuiltinFile> builtin,
+                               const std::string& builtin_config)
     : config_(config), builtin_used_(config.empty()), builtin_(std::move(builtin)) {
   if (builtin_used_) {
-    config_ = "kiosk.toml";
+    config_ = builtin_config;
     return;
   }
   const std::size_t slash = config_.rfind('/');

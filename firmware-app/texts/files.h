@@ -16,8 +16,9 @@ struct BuiltinFile {
 
 class ProgrammeFiles {
  public:
-  // config: path of kiosk.toml; empty: the built-in files.
-  ProgrammeFiles(const std::string& config, std::vector<BuiltinFile> builtin);
+  // config: path of kiosk.toml; empty: the built-in files, of them the one of this name.
+  ProgrammeFiles(const std::string& config, std::vector<BuiltinFile> builtin,
+                 const std::string& builtin_config = "kiosk.toml");
 
   // Name of the configuration file, for reading and messages.
   const std::string& config() const { return config_; }

@@ -65,8 +65,9 @@ class GpioLines {
 // The backend that this build has; `not_built` opens nothing and says so.
 std::unique_ptr<GpioLines> make_gpio_lines();
 
-// Opens the lines behind the service. A chip that is missing, busy or forbidden is an error here,
-// at start; once running, a lost chip is tried again with growing pauses.
+// Opens the lines behind the service. A kiosk must stand without its buttons too: when a line can't
+// be had (anything but invalid_argument, with which `out` stays empty), `out` is given all the same,
+// says device_lost, and tries again with growing pauses, as it does when a chip is lost later.
 // No allocation after open_gpio_buttons but inside libgpiod when a lost chip is opened again.
 Status open_gpio_buttons(std::span<const GpioLine> lines, std::unique_ptr<Buttons>& out,
                          ErrorLine& out_error);

@@ -17,7 +17,9 @@ class GpioButtons final : public Buttons {
       if (!fits || (line.line.size() == 0 && line.chip.size() == 0) || !lines_.push(line))
         return gpio_error(GpioFault::bad_config, line.line.c_str(), 0, out_error);
     }
-    return device_->open(lines_.span(), out_error);
+    const Status status = device_->open(lines_.span(), out_error);
+    lost_ = !status.ok();
+    return status;
   }
 
   Status poll(std::int64_t now_us, ButtonEvents& out) override {
@@ -111,9 +113,9 @@ Status gpio_error(GpioFault fault, const char* what, int error, ErrorLine& out_e
 Status open_gpio_buttons(std::span<const GpioLine> lines, std::unique_ptr<GpioLines> device,
                          std::unique_ptr<Buttons>& out, ErrorLine& out_error) {
   auto buttons = std::make_unique<GpioButtons>(std::move(device));
-  CARYATID_TRY(buttons->open(lines, out_error));
-  out = std::move(buttons);
-  return {};
+  const Status status = buttons->open(lines, out_error);
+  if (status.code != Code::invalid_argument) out = std::move(buttons);
+  return status;
 }
 
 Status open_gpio_buttons(std::span<const GpioLine> lines, std::unique_ptr<Buttons>& out,

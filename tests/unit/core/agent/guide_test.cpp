@@ -40,6 +40,21 @@ TEST_F(GuideTest, AButtonLeadsToItsPageInTheSameStep) {
   EXPECT_FALSE(guide_.step(0.03f, {}, noon_, true).says);  // Once.
 }
 
+TEST_F(GuideTest, ANoticeIsShownToNobodyTooAndAtNight) {
+  EXPECT_FALSE(wait(60.0f).visited);
+  std::vector<std::uint32_t> words = small_.words();
+  ProgrammeHeader header;
+  std::memcpy(&header, words.data(), sizeof header);
+  header.always_shown = 1;
+  std::memcpy(words.data(), &header, sizeof header);
+  SmallProgramme::seal(&words);
+  Guide notice;
+  notice.take(read_programme(std::as_bytes(std::span(words)), 0, 10).value);
+  const Moment night{2, 25, 11, 23 * 60};
+  EXPECT_TRUE(notice.step(0.03f, {}, night, false).visited);
+  EXPECT_FALSE(notice.guidance().asleep);
+}
+
 TEST_F(GuideTest, ThePageComesBeforeTheButtonsOwnAction) {
   press(SmallProgramme::kGoMaps);
   const Guidance& g = press(SmallProgramme::kGoMaps);  // On maps this button feels joy instead.

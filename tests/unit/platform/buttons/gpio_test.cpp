@@ -56,7 +56,13 @@ class GpioTest : public ::testing::Test {
     EXPECT_FALSE(status.ok());
     EXPECT_EQ(status.detail, static_cast<std::uint16_t>(fault)) << error_.c_str();
     EXPECT_NE(std::string(error_.c_str()).find(word), std::string::npos) << error_.c_str();
-    EXPECT_EQ(buttons_, nullptr);
+    if (fault == GpioFault::bad_config) {
+      EXPECT_EQ(buttons_, nullptr);
+    } else {  // The kiosk goes on without it.
+      ASSERT_NE(buttons_, nullptr);
+      EXPECT_EQ(poll(0).code, Code::device_lost);
+    }
+    buttons_.reset();
   }
   Status poll(std::int64_t now_us) {
     events_.clear();
@@ -122,6 +128,18 @@ TEST_F(GpioTest, MissingChip) {
   line.button = 1;
   line.chip = text("gpiochip9");
   expect_refused({line}, GpioFault::no_chip, "gpiochip9");
+}
+
+TEST_F(GpioTest, AChipThatComesLateIsUsed) {
+  world.chips.front().open_errno = ENODEV;
+  EXPECT_FALSE(open({line_named(1, "JOY")}).ok());
+  EXPECT_EQ(poll(0).code, Code::device_lost);
+  world.chips.front().open_errno = 0;
+  EXPECT_EQ(poll(100'000).code, Code::device_lost) << "before the pause is over";
+  EXPECT_TRUE(poll(1'000'000).ok());
+  joy().edge(true, 1'000'100);
+  EXPECT_TRUE(poll(1'100'000).ok());
+  EXPECT_EQ(events_.size(), 1u);
 }
 
 TEST_F(GpioTest, MissingLineReleasesTheOthers) {
