@@ -43,10 +43,9 @@ TEST_F(GuideTest, AButtonLeadsToItsPageInTheSameStep) {
 TEST_F(GuideTest, ANoticeIsShownToNobodyTooAndAtNight) {
   EXPECT_FALSE(wait(60.0f).visited);
   std::vector<std::uint32_t> words = small_.words();
-  ProgrammeHeader header;
-  std::memcpy(&header, words.data(), sizeof header);
-  header.always_shown = 1;
-  std::memcpy(words.data(), &header, sizeof header);
+  constexpr std::uint16_t kYes = 1;
+  std::memcpy(reinterpret_cast<std::byte*>(words.data()) + offsetof(ProgrammeHeader, always_shown),
+              &kYes, sizeof kYes);
   SmallProgramme::seal(&words);
   Guide notice;
   notice.take(read_programme(std::as_bytes(std::span(words)), 0, 10).value);
