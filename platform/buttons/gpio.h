@@ -66,9 +66,10 @@ class GpioLines {
 std::unique_ptr<GpioLines> make_gpio_lines();
 
 // Opens the lines behind the service. A kiosk must stand without its buttons too: when a line can't
-// be had (anything but invalid_argument, with which `out` stays empty), `out` is given all the same,
-// says device_lost, and tries again with growing pauses, as it does when a chip is lost later.
-// No allocation after open_gpio_buttons but inside libgpiod when a lost chip is opened again.
+// be had (anything but invalid_argument, with which `out` stays empty), `out` is given all the
+// same, says device_lost, and tries again with growing pauses, as it does when a chip is lost
+// later. No allocation after open_gpio_buttons but inside libgpiod when a lost chip is opened
+// again.
 Status open_gpio_buttons(std::span<const GpioLine> lines, std::unique_ptr<Buttons>& out,
                          ErrorLine& out_error);
 // The same over given lines, for tests. Takes ownership.
