@@ -51,6 +51,13 @@ target_compile_definitions(golden_program PRIVATE CARYATID_SOURCE_DIR="${CMAKE_S
   CARYATID_PROGRAM="$<TARGET_FILE:caryatid>"
   CARYATID_PACKS="${CMAKE_SOURCE_DIR}/build/host-release/packs")
 add_dependencies(golden_program caryatid)
+set(fake_clock)
+if(NOT CARYATID_SANITIZE)  # Its run-time library wants to be the first that is loaded.
+  add_library(fake_clock MODULE ${CMAKE_CURRENT_LIST_DIR}/program/fake_clock.cpp)
+  set(fake_clock $<TARGET_FILE:fake_clock>)
+  add_dependencies(golden_program fake_clock)
+endif()
+target_compile_definitions(golden_program PRIVATE CARYATID_FAKE_CLOCK="${fake_clock}")
 add_test(NAME golden_program COMMAND golden_program)
 set_tests_properties(golden_program PROPERTIES TIMEOUT 900)
 if(CARYATID_SANITIZE)

@@ -112,6 +112,7 @@ class ControlClient {
   ControlClient& operator=(const ControlClient&) = delete;
 
   bool connected() const { return socket_ >= 0; }
+  int descriptor() const { return socket_; }
   bool send(const std::string& bytes) const {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(bytes.size());
