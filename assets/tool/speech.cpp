@@ -1,6 +1,9 @@
 // caryatid-tool speech: voices made ahead of time, recordings timed, mouths measured.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <stdexcept>
 
 #include "assets/bake/speech/align.h"
@@ -20,6 +23,7 @@ namespace {
 struct SpeechArgs {
   VoiceJob job;
   std::string recording, phones, out, metrics, pack, mood;
+  std::size_t worst = 0;
 };
 
 using Kind = SpokenEvent::Kind;
@@ -177,6 +181,23 @@ std::vector<bake::TimedPhone> heard_phones(const Spoken& spoken, const Spoken& f
   return out;
 }
 
+// The sounds whose mouth is farthest from the middle of what people accept, with their neighbours.
+void print_worst(const bake::SyncReport& r, const std::vector<bake::TimedPhone>& phones,
+                 std::size_t count) {
+  std::vector<std::size_t> order(r.late_s.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto off = [&r](std::size_t i) { return std::abs(r.late_s[i] + 0.015); };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return off(a) > off(b); });
+  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) {
+    const double at_s = r.at_s[order[k]];
+    std::printf("%8.3f s %4.0f ms  ", at_s, 1000.0 * r.late_s[order[k]]);
+    for (const bake::TimedPhone& p : phones)
+      if (std::abs(p.start_s - at_s) < 0.3)
+        std::printf(" %s%s", p.start_s == at_s ? ">" : "", p.ipa.empty() ? "_" : p.ipa.c_str());
+    std::printf("\n");
+  }
+}
+
 void sync(const SpeechArgs& a) {
   const Spoken spoken = speak(a.job), file = read_wav(a.recording);
   double spread_s = 0.0;
@@ -198,6 +219,7 @@ void sync(const SpeechArgs& a) {
   std::printf("drift: %.2f ms a minute\n", 60.0 * ms(bake::drift_s_per_s(r)));
   std::printf("lips shut on p b m: %zu of %zu; lower lip at the teeth on f v: %zu of %zu\n", r.shut,
               r.bilabials, r.touching, r.labiodentals);
+  print_worst(r, phones, a.worst);
 }
 
 void contacts(const SpeechArgs& a) {
@@ -263,6 +285,7 @@ void add_speech_sync(CLI::App* speech) {
   cmd->add_option("--audio", a->recording, "The file of caryatid --audio file:FILE")->required();
   cmd->add_option("--metrics", a->metrics, "The file of caryatid --metrics FILE")->required();
   cmd->add_option("--text", a->job.text, "The text of caryatid --say TEXT")->required();
+  cmd->add_option("--worst", a->worst, "Lists so many of the sounds that are farthest off");
   add_voice_options(cmd, a.get());
   cmd->footer("example: caryatid-tool speech sync --audio a.wav --metrics m.jsonl --text Hello");
   cmd->callback([a] { sync(*a); });

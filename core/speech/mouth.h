@@ -10,9 +10,9 @@
 
 namespace caryatid::speech {
 
-// How long before its sound a shape is on the screen. Half of the +15 (sound first) .. -45 ms
-// (sound last) in which people accept a picture, so that a frame of 1/30 s fits in.
-inline constexpr float kMouthLead_ms = 30.0f;
+// How long before its sound a shape comes on the screen: 13 ms, and half of the time for which a
+// picture stays there.
+float mouth_lead_ms(float frame_ms);
 // Events this far ahead of the moment have a say; a voice that streams must be ahead by as much.
 inline constexpr float kLookAhead_ms = 350.0f;
 
@@ -28,7 +28,7 @@ class Mouth {
   Mouth();  // Takes the shapes of face::viseme_frame(), about 20 us.
 
   // now_ms: the moment in the utterance's audio that is heard when the picture is seen;
-  // kMouthLead_ms is added here. frame_ms: time until the next picture (clamped to 8..100): no
+  // mouth_lead_ms() is added here. frame_ms: time until the next picture (clamped to 8..100): no
   // contact is shorter than that, so that each is seen. About 3 us, no state.
   MouthShape at(const Utterance& utterance, float now_ms, float frame_ms) const;
 

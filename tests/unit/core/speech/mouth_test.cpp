@@ -72,7 +72,7 @@ TEST(Mouth, TongueIsSeenOnThAndL) {
   for (const char* consonant : {"θ", "ð", "l"}) {
     const auto u = spoken({"u", consonant, "u"}, 80);
     const int viseme = consonant[0] == 'l' ? 8 : 3;
-    const MouthShape m = mouth().at(*u, 200.0f + 110.0f - kMouthLead_ms, 33.0f);
+    const MouthShape m = mouth().at(*u, 200.0f + 110.0f - mouth_lead_ms(33.0f), 33.0f);
     for (int fap = 43; fap <= 47; ++fap)
       EXPECT_NEAR(m.faps.get(fap), face::viseme_frame(viseme).get(fap), 1.0f) << consonant;
     EXPECT_GT(lip_gap(m.faps), 100.0f) << consonant;
@@ -82,7 +82,7 @@ TEST(Mouth, TongueIsSeenOnThAndL) {
 TEST(Mouth, NeighboursColourASound) {
   // Lips are rounded already in the k before u, not in that before i.
   const auto rounded = spoken({"k", "u"}, 90), spread = spoken({"k", "i"}, 90);
-  const float t = 200.0f + 45.0f - kMouthLead_ms;
+  const float t = 200.0f + 45.0f - mouth_lead_ms(33.0f);
   EXPECT_LT(mouth().at(*rounded, t, 33.0f).faps.get(6), mouth().at(*spread, t, 33.0f).faps.get(6));
 }
 
@@ -99,7 +99,7 @@ TEST(Mouth, HasteKeepsTheMouthSmaller) {
 
 TEST(Mouth, StressOpensIt) {
   const auto plain = spoken({"t", "a", "t"}, 120), stressed = spoken({"t", "ˈa", "t"}, 120);
-  const float t = 200.0f + 180.0f - kMouthLead_ms;
+  const float t = 200.0f + 180.0f - mouth_lead_ms(33.0f);
   EXPECT_GT(mouth().at(*stressed, t, 33.0f).faps.get(3), mouth().at(*plain, t, 33.0f).faps.get(3));
 }
 
@@ -136,7 +136,7 @@ TEST(Mouth, LipsStayShutUnderEveryLimitOfAFace) {
   for (const int fap : {6, 7, 12, 13, 53, 54, 59, 60}) smile.set(fap, 250.0f);
   for (const int fap : {3, 4, 5, 8, 9, 10, 11}) smile.set(fap, fap == 3 ? 300.0f : -150.0f);
   const auto u = spoken({"a", "p", "a"}, 80);
-  const MouthShape m = mouth().at(*u, 200.0f + 110.0f - kMouthLead_ms, 33.0f);
+  const MouthShape m = mouth().at(*u, 200.0f + 110.0f - mouth_lead_ms(33.0f), 33.0f);
   const face::FapFrame shown =
       face::MixJob{
           .emotion = &smile, .speech = &m.faps, .speech_strength = m.strength, .limits = &limits}
@@ -147,9 +147,9 @@ TEST(Mouth, LipsStayShutUnderEveryLimitOfAFace) {
 
 TEST(Mouth, Fap1NamesTheSoundThatShows) {
   const auto u = spoken({"s", "m", "ɑː"}, 120);
-  EXPECT_EQ(mouth().at(*u, 200.0f + 60.0f - kMouthLead_ms, 33.0f).viseme.first, 7);
-  EXPECT_EQ(mouth().at(*u, 200.0f + 180.0f - kMouthLead_ms, 33.0f).viseme.first, 1);
-  EXPECT_EQ(mouth().at(*u, 200.0f + 300.0f - kMouthLead_ms, 33.0f).viseme.first, 10);
+  EXPECT_EQ(mouth().at(*u, 200.0f + 60.0f - mouth_lead_ms(33.0f), 33.0f).viseme.first, 7);
+  EXPECT_EQ(mouth().at(*u, 200.0f + 180.0f - mouth_lead_ms(33.0f), 33.0f).viseme.first, 1);
+  EXPECT_EQ(mouth().at(*u, 200.0f + 300.0f - mouth_lead_ms(33.0f), 33.0f).viseme.first, 10);
 }
 
 TEST(Mouth, AnEmptyUtteranceShowsNothing) {
