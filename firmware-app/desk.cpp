@@ -46,6 +46,7 @@ bool Desk::compile(ProgrammeFiles files, CompiledProgramme* out) {
   font_ = font.value;
   *out = compile_programme(files, font_);
   files_read_ = files.names_read();
+  if (letters_.empty()) letters_ = Shaper(font_).letters();
   return !out->block.empty();
 }
 
@@ -158,6 +159,8 @@ void Desk::adopt() {
         next.value.text(next.value.pictures[p].file) != old.text(old.pictures[p].file))
       pictures_[p] = {};
   said_.clear();  // Its letters lie in the old block.
+  plain_ = {};
+  mute_ = {};
   guide_.take(next.value);
   slot_ = 1 - slot_;
   platform::log(Event::text_taken, "changed texts taken over");
@@ -185,17 +188,56 @@ const agent::Guidance& Desk::step(float dt_s, std::span<const ButtonEvent> event
                                   const agent::Moment& now, bool speaking) {
   now_ = now;
   const agent::Guidance& g = guide_.step(dt_s, events, now, speaking);
-  if (g.describes) {
-    agent::describe(programme(), g, now, &said_);
-    ssml_.write(programme(), said_);
-  } else if (g.says) {
-    const agent::Line* line = programme().line(g.say, g.language);
-    if (line != nullptr) {
-      agent::expand(programme(), *line, now, &said_);
-      ssml_.write(programme(), said_);
-    }
+  if (g.describes || g.says) {
+    described_ = g.describes;
+    write_said();
   }
   return g;
+}
+
+// In the visitor's language, or the next one that the voice knows; where it knows none, in the
+// visitor's own.
+void Desk::write_said() {
+  agent::Guidance g = guide_.guidance();
+  const auto count = static_cast<std::uint16_t>(programme().languages.size());
+  const std::uint16_t own = g.language;
+  for (std::uint16_t i = 0; i < count; ++i) {
+    g.language = static_cast<std::uint16_t>((own + i) % count);
+    if (!mute_[g.language]) break;
+    if (i + 1 == count) g.language = own;
+  }
+  const agent::Line* line = programme().line(g.say, g.language);
+  if (described_)
+    agent::describe(programme(), g, now_, &said_);
+  else if (line != nullptr)
+    agent::expand(programme(), *line, now_, &said_);
+  else
+    return;
+  plain_ = {};
+  ssml_.write(programme(), said_);
+}
+
+bool Desk::say_in_next_language() {
+  if (!plain_.empty() || said_.text.empty()) return false;
+  const std::uint16_t unknown = said_.language;
+  mute_[unknown] = true;
+  write_said();
+  return said_.language != unknown && !mute_[said_.language];
+}
+
+void Desk::caption(std::string_view text) {
+  plain_ = text;
+  set_from_ = 0;
+  set_to_ = agent::TypeCase(letters_).set(plain_, 0, &said_);
+}
+
+std::int32_t Desk::caption_byte(std::uint32_t spoken_byte) {
+  if (plain_.empty()) return static_cast<std::int32_t>(ssml_.plain_byte(spoken_byte));
+  if (spoken_byte >= set_to_ && spoken_byte < plain_.size()) {
+    set_from_ = spoken_byte;
+    set_to_ = agent::TypeCase(letters_).set(plain_, set_from_, &said_);
+  }
+  return static_cast<std::int32_t>(spoken_byte - set_from_);
 }
 
 std::string_view Desk::voice() const {

@@ -9,6 +9,7 @@
 #include "core/agent/guide.h"
 #include "core/agent/signboard.h"
 #include "core/agent/ssml.h"
+#include "core/agent/type_case.h"
 #include "core/base/arena.h"
 #include "core/pack/font.h"
 #include "firmware-app/reload.h"
@@ -49,6 +50,12 @@ class Desk {
   std::string_view ssml() const { return ssml_.text(); }
   // Code of the voice for the text that is said.
   std::string_view voice() const;
+  // The voice does not know the language of what is said: that is said in the next one of the
+  // programme, as is all that follows. False: there is no other, its captions have to do.
+  bool say_in_next_language();
+  // Captions of a plain text that another program lets her say; `text` stays where it is until the
+  // next text begins.
+  void caption(std::string_view text);
   // What is shown beside the person. `frame` brings the picture's size, the head and the voice; the
   // rest is filled in here. First the place for the person, then, when the camera is aimed, the
   // overlay.
@@ -56,16 +63,18 @@ class Desk {
   scene::Overlay overlay(agent::SignboardInput frame, float dt_s);
   // Pictures are shown to her right.
   bool mirrored() const { return signboard_.mirrored(); }
-  // Plain byte of a byte of ssml().
-  std::uint32_t plain_byte(std::uint32_t ssml_byte) const { return ssml_.plain_byte(ssml_byte); }
+  // Of a byte of what the voice was given, in the captions.
+  std::int32_t caption_byte(std::uint32_t spoken_byte);
   const agent::Programme& programme() const { return guide_.programme(); }
 
  private:
   bool compile(ProgrammeFiles files, CompiledProgramme* out);
   void adopt();
   void complete(agent::SignboardInput* io_frame) const;
+  void write_said();
 
   pack::FontView font_;
+  std::vector<agent::TypeLetter> letters_;
   std::vector<std::byte> compiled_;  // Until take_memory().
   std::array<std::span<std::uint32_t>, 2> slots_;
   std::string config_;  // Empty: the built-in programme.
@@ -79,6 +88,10 @@ class Desk {
   agent::Signboard signboard_;
   agent::Utterable said_;
   agent::Ssml ssml_;
+  bool described_ = false;                   // What is said is a description of the page.
+  std::array<bool, kMaxLanguages> mute_{};   // Languages that the voice does not know.
+  std::string_view plain_;                   // Of caption(); empty: ssml_ is said.
+  std::uint32_t set_from_ = 0, set_to_ = 0;  // Bytes of it that stand in said_.
 };
 
 }  // namespace caryatid::app

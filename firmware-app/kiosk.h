@@ -89,6 +89,9 @@ class Kiosk {
   void tell_picture(const char* of_what, double* out_s);
   bool open_outputs();
   void open_speaker();
+  SayOptions say_options(std::string_view language) const;
+  void say_programme();
+  void say_plain(std::string_view text);
   bool frame(const Tick& tick);
   void poll_buttons(const Tick& tick);
   void note_press(const platform::ButtonEvents& events, std::int64_t to_monotonic_us);

@@ -106,7 +106,7 @@ void Kiosk::follow_programme(const Tick& tick) {
   agent_->sleep(g.asleep);
   speaker_.set_volume(g.volume);
   if (g.hushes) speaker_.stop();
-  if (g.says || g.describes) speaker_.say(desk_.ssml(), {.language = desk_.voice(), .ssml = true});
+  if (g.says || g.describes) say_programme();
 }
 
 // Marks of the text that is heard are gestures.
@@ -154,8 +154,7 @@ void Kiosk::show_overlay(const Tick& tick) {
   seen.speaking = spoken.speaking;
   const auto words = speaker_.words();
   if (spoken.word >= 0 && static_cast<std::size_t>(spoken.word) < words.size())
-    seen.word_byte = static_cast<std::int32_t>(
-        desk_.plain_byte(words[static_cast<std::size_t>(spoken.word)].begin_byte));
+    seen.word_byte = desk_.caption_byte(words[static_cast<std::size_t>(spoken.word)].begin_byte);
   list_.overlay = desk_.overlay(seen, tick.dt_s);
 }
 

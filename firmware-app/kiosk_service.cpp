@@ -48,7 +48,7 @@ void Kiosk::obey(std::string_view line, platform::ControlReply& reply) {
     case CommandKind::help:
       return answer(reply, kCommands);
     case CommandKind::say:
-      speaker_.say(c.text, {.language = options_.language});
+      say_plain(c.text);
       return answer(reply, "ok");
     case CommandKind::play:
       return play(c.text, reply);

@@ -1,4 +1,6 @@
 // The kiosk's side of speech: the speaker, and what face, body and eyes do with it.
+#include "core/emotion/place.h"
+#include "core/speech/prosody.h"
 #include "firmware-app/kiosk.h"
 #include "platform/log/log.h"
 
@@ -14,7 +16,27 @@ void Kiosk::open_speaker() {
                                .seed = options_.seed};
   if (!speaker_.open(options, &error))
     platform::log(platform::Event::speech_trouble, "%s", error.c_str());
-  if (!options_.say.empty()) speaker_.say(options_.say, {.language = options_.language});
+  if (!options_.say.empty()) say_plain(options_.say);
+}
+
+// As she feels at the moment.
+SayOptions Kiosk::say_options(std::string_view language) const {
+  const emotion::Place mood = agent_ ? emotion::place_of(agent_->mood()) : emotion::Place{};
+  const speech::Prosody sounds = speech::prosody_at(mood.activation, mood.evaluation);
+  return {.language = language, .rate = sounds.rate, .pitch = sounds.pitch, .range = sounds.range};
+}
+
+// What the desk's guide wants to be said.
+void Kiosk::say_programme() {
+  SayOptions how = say_options(desk_.voice());
+  how.ssml = true;
+  speaker_.say(desk_.ssml(), how);
+}
+
+// What another program wants to be said.
+void Kiosk::say_plain(std::string_view text) {
+  speaker_.say(text, say_options(options_.language));
+  desk_.caption(speaker_.text());
 }
 
 // What she says in this frame, for the mixer; her eyes know when to blink.
@@ -26,6 +48,11 @@ const SpeechFrame& Kiosk::speak(const Tick& tick) {
     platform::log(platform::Event::speech_trouble, "speech: %s (captions go on)",
                   speaker_.trouble());
   told_trouble_ = trouble;
+  if (spoken.no_language && desk_.say_in_next_language()) {
+    platform::log(platform::Event::speech_trouble, "speech: goes on in %.*s, the next language",
+                  static_cast<int>(desk_.voice().size()), desk_.voice().data());
+    say_programme();
+  }
   if (spoken.blink) agent_->blink();
   agent_->attend(spoken.speaking ? spoken.attention : 0.0f);
   if (spoken.beat > 0.0f && stage_) stage_->beat(spoken.beat);

@@ -113,7 +113,7 @@ struct Speaker::State {
   FixedString<240> recording;
   FixedString<160> recordings;  // The folder.
   bool ssml = false;
-  float rate = 1.0f, pitch = 1.0f;
+  float rate = 1.0f, pitch = 1.0f, range = 1.0f;
 
   speech::Utterance utterance;
   speech::Mouth mouth;
@@ -173,6 +173,7 @@ void Speaker::say(std::string_view text, const SayOptions& options) {
   s.ssml = options.ssml;
   s.rate = options.rate;
   s.pitch = options.pitch;
+  s.range = options.range;
   s.from_byte = 0;
   s.trouble.assign(std::string_view(cut ? "the text is too long and was cut" : ""));
   s.utterance.clear();
@@ -228,6 +229,7 @@ bool Speaker::State::begin_voice(std::int64_t now_us) {
   job.ssml = ssml;
   job.rate = rate;
   job.pitch = pitch;
+  job.range = range;
   job.recording = {recording.c_str(), recording.size()};
   voice = nullptr;
   if (recording.size() > 0 && recorded && from_byte == 0) {
@@ -269,6 +271,7 @@ void Speaker::State::lost(Status status, std::int64_t now_us) {
   const bool recovers = why == VoiceTrouble::crashed || why == VoiceTrouble::hung ||
                         why == VoiceTrouble::broken_protocol;
   trouble.assign(std::string_view(voice->trouble()));
+  frame.no_language = why == VoiceTrouble::no_language;
   if (!recovers) return go_silent(voice->trouble());
   const auto known = utterance.words();
   const std::uint32_t said = known.empty() ? from_byte : known.back().end_byte;
@@ -415,7 +418,7 @@ const SpeechFrame& Speaker::step(double time_s) {
   s.last_s = time_s;
   SpeechFrame& f = s.frame;
   f.marks.clear();
-  f.started = f.ended = false;
+  f.started = f.ended = f.no_language = false;
   const bool was_speaking = s.mode != State::Mode::idle;
   s.moves = true;
   const float from_ms = f.played_ms;

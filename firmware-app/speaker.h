@@ -27,6 +27,7 @@ struct SayOptions {
   bool ssml = false;
   float rate = 1.0f;        // Of the voice's own speed; cut to 0.5..2.
   float pitch = 1.0f;       // Of the voice's own; cut to 0.5..2.
+  float range = 1.0f;       // Of its melody; cut to 0.5..2.
   float liveliness = 1.0f;  // Of brows, head and hands on stressed words; 0 none .. 1.5.
   // A recording without its suffix: RECORDING.wav and RECORDING.timing play in place of the
   // synthesised voice. Empty: the one of SpeakerOptions::recordings, where there is one. A damaged
@@ -36,12 +37,13 @@ struct SayOptions {
 
 // What goes on in this frame. Valid until the next call.
 struct SpeechFrame {
-  bool speaking = false;   // From say() until the last sound has been heard.
-  bool started = false;    // In this frame the first sound is heard.
-  bool ended = false;      // In this frame the utterance ended, was stopped or gave up.
-  bool silent = false;     // No sound: the words pass at a reader's pace.
-  float played_ms = 0.0f;  // Position in the utterance that is heard now.
-  int word = -1;           // Index in words() of the word that is heard; -1: none yet.
+  bool speaking = false;     // From say() until the last sound has been heard.
+  bool started = false;      // In this frame the first sound is heard.
+  bool ended = false;        // In this frame the utterance ended, was stopped or gave up.
+  bool silent = false;       // No sound: the words pass at a reader's pace.
+  bool no_language = false;  // In this frame the voice said that it does not know the language.
+  float played_ms = 0.0f;    // Position in the utterance that is heard now.
+  int word = -1;             // Index in words() of the word that is heard; -1: none yet.
   FixedVector<FixedString<23>, 8> marks;  // Marks of the text that were passed in this frame.
 
   // For face::MixJob::speech: mouth FAPs are absolute; brows 31..36 and head 48..50 are added.

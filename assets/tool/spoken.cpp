@@ -87,8 +87,8 @@ class Program {
 };
 
 std::string request(const VoiceJob& job) {
-  const std::size_t payload = 6 + job.language.size() + job.text.size();
-  std::array<std::byte, wire::kHeadBytes + 6> head{};
+  const std::size_t payload = wire::kSayBytes + job.language.size() + job.text.size();
+  std::array<std::byte, wire::kHeadBytes + wire::kSayBytes> head{};
   wire::put_head(wire::Type::say, 1, payload, std::span(head).first<wire::kHeadBytes>());
   head[wire::kHeadBytes] = std::byte{job.ssml};
   head[wire::kHeadBytes + 1] = static_cast<std::byte>(job.language.size());
@@ -97,6 +97,7 @@ std::string request(const VoiceJob& job) {
   };
   wire::put_u16(percent(job.rate), &head[wire::kHeadBytes + 2]);
   wire::put_u16(percent(job.pitch), &head[wire::kHeadBytes + 4]);
+  wire::put_u16(percent(job.range), &head[wire::kHeadBytes + 6]);
   return std::string(reinterpret_cast<const char*>(head.data()), head.size()) + job.language +
          job.text;
 }

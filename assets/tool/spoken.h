@@ -27,7 +27,7 @@ struct Spoken {
 struct VoiceJob {
   std::string text, language = "en";
   bool ssml = false;
-  double rate = 1.0, pitch = 1.0;
+  double rate = 1.0, pitch = 1.0, range = 1.0;
   std::string program = {};  // Path of caryatid-voice; empty: beside this tool.
 };
 

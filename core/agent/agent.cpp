@@ -29,6 +29,13 @@ void Agent::feel(emotion::Emotion e, float strength) {
   since_press_s_ = 0.0f;
 }
 
+emotion::Weights Agent::mood() const {
+  emotion::Weights out{};
+  const emotion::Emotion e = feeling_.current();
+  if (e != emotion::Emotion::calm) out[emotion::index_of(e)] = feeling_.strength();
+  return out;
+}
+
 const Intentions& Agent::step(float dt_s) {
   const float dt = dt_s > 0.0f ? std::min(dt_s, 0.25f) : 0.0f;
   if (!pressed_) since_press_s_ += dt;

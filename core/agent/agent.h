@@ -53,6 +53,8 @@ class Agent {
   const Intentions& step(float dt_s);
 
   emotion::Emotion emotion() const { return out_.emotion; }
+  // What the face is on its way to: what a sentence that begins now is spoken with.
+  emotion::Weights mood() const;
 
  private:
   emotion::Feeling feeling_;

@@ -32,7 +32,10 @@ Layout lay_out(const LayoutRequest& request) {
   const float caption = caption_height(out, out.caption_lines);
   out.caption = {m, h - m - caption, w - m, h - m};
   out.person = {0, 0, w, h};
-  if (!request.card) return out;
+  if (!request.card) {
+    if (request.captions) out.person.y1 = out.caption.y0;
+    return out;
+  }
   const bool whole = request.large_text && !request.captions;
   const float top_of_caption = whole ? h - m : out.caption.y0 - m;
   if (portrait) {
@@ -56,8 +59,9 @@ scene::Box caption_box(const Layout& layout, int lines, float width_px, const sc
   const float height = caption_height(layout, lines);
   scene::Box box{middle - half, layout.caption.y1 - height, middle + half, layout.caption.y1};
   if (!box.overlaps(head)) return box;
-  const float top = layout.margin_px;
-  return {box.x0, top, box.x1, top + height};
+  box.y0 = layout.margin_px;
+  box.y1 = box.y0 + height;
+  return box.overlaps(head) ? scene::Box{} : box;
 }
 
 }  // namespace caryatid::agent

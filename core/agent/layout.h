@@ -10,7 +10,7 @@ struct LayoutRequest {
   bool card = false;                // The page is shown.
   bool large_text = false;
   bool mirrored = false;  // Landscape: the card stands left, the person right.
-  bool captions = true;   // There are some now. Large text takes their room when there are none.
+  bool captions = true;   // There are some now: the person, and large text, leave them room.
 };
 
 // Boxes in pixels. Landscape: the person left, the card right, captions below both. Portrait: the
@@ -26,8 +26,9 @@ struct Layout {
 // O(1).
 Layout lay_out(const LayoutRequest& request);
 
-// The caption's box for `lines` lines; where it would cover the head, at the picture's upper end.
-// A head in Layout::person is free of it in any case.
+// The caption's box for `lines` lines; where it would cover the head, at the picture's upper end;
+// empty where it would cover it there, too: the camera is on its way. A head in Layout::person is
+// free of it in any case.
 scene::Box caption_box(const Layout& layout, int lines, float width_px, const scene::Box& head);
 
 }  // namespace caryatid::agent

@@ -246,6 +246,7 @@ struct Utterable {
  private:
   friend void append(const Programme&, const Line&, const Moment&, Utterable*);
   friend void append_value(const Programme&, std::uint16_t, std::size_t, Utterable*);
+  friend class TypeCase;
   FixedVector<scene::ShapedGlyph, 512> value_glyphs_;
 };
 // Text that does not fit is cut behind a whole word. O(text).

@@ -299,6 +299,7 @@ void Signboard::draw_captions(const SignboardInput& input) {
   for (std::size_t l = first; l < first + count; ++l)
     width = std::max(width, em(lines_[l].width, size));
   caption_ = caption_box(layout_, static_cast<int>(count), width, input.head);
+  if (caption_.empty()) return;
   const Palette ink = Palette::of(input.guidance->high_contrast);
   scene::Pen pen(font_, &quads_);
   pen.box(caption_, 0.35f * size, ink.caption);

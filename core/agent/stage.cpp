@@ -7,6 +7,7 @@
 #include "core/base/trig.h"
 #include "core/body/ik.h"
 #include "core/body/pose.h"
+#include "core/emotion/place.h"
 
 namespace caryatid::agent {
 namespace {
@@ -24,30 +25,9 @@ constexpr float kEyesYaw_rad = 0.42f, kEyesPitch_rad = 0.21f;  // Where eyes sti
 constexpr float kStopping_m = 0.4f;  // How far a walk goes on that ends with the next step.
 constexpr float kInside_m = 0.4f;    // From the edge of the picture to a person who is in it.
 
-// Where feelings have their place on the activation-evaluation plane (after the words of Whissell's
-// dictionary as the thesis scales them), for the bearing.
-struct Place {
-  float activation, evaluation;
-};
-constexpr std::array<Place, emotion::kEmotionCount> kPlaces{{{0, 0},
-                                                             {0.45f, 0.8f},
-                                                             {-0.1f, -0.55f},
-                                                             {0.1f, -0.5f},
-                                                             {0.3f, -0.2f},
-                                                             {0.35f, -0.3f},
-                                                             {0.6f, 0.3f}}};
 constexpr float kBearing = 0.5f;  // A felt emotion colours the bearing so much.
 
 float wrapped(float rad) { return rad - 2.0f * kPi * std::floor(rad / (2.0f * kPi) + 0.5f); }
-
-Place place_of(const emotion::Weights& weights) {
-  Place sum{0, 0};
-  for (std::size_t e = 1; e < emotion::kEmotionCount; ++e) {
-    sum.activation += kBearing * weights[e] * kPlaces[e].activation;
-    sum.evaluation += kBearing * weights[e] * kPlaces[e].evaluation;
-  }
-  return {std::clamp(sum.activation, -1.0f, 1.0f), std::clamp(sum.evaluation, -1.0f, 1.0f)};
-}
 
 body::Walker walker_at(const body::Skeleton* skeleton, float x_m, float heading_rad,
                        std::uint64_t seed) {
@@ -183,8 +163,8 @@ void Stage::step(float dt_s, const Intentions& will, Vec3 camera_m) {
   const float dt = dt_s > 0.0f ? std::min(dt_s, 0.1f) : 0.0f;
   direct(dt, will);
   gesture(will);
-  const Place mood = place_of(will.emotions);
-  walker_.set_style(body::gait_style_at(mood.activation, mood.evaluation));
+  const emotion::Place mood = emotion::place_of(will.emotions);
+  walker_.set_style(body::gait_style_at(kBearing * mood.activation, kBearing * mood.evaluation));
   walker_.step(dt, body_);
   for (int bap = 1; bap <= body::kBapCount; ++bap)
     if (will.body.has(bap)) body_.set(bap, body_.get(bap) + will.body.get(bap));

@@ -199,6 +199,30 @@ Shaper::~Shaper() {
   for (hb_font_t* f : state_->faces) hb_font_destroy(f);
 }
 
+std::vector<agent::TypeLetter> Shaper::letters() const {
+  std::vector<agent::TypeLetter> out;
+  for (std::size_t f = 0; f < state_->faces.size(); ++f) {
+    const pack::FontFace& face = state_->font.faces[f];
+    hb_set_t* codes = hb_set_create();
+    hb_face_collect_unicodes(hb_font_get_face(state_->faces[f]), codes);
+    hb_codepoint_t code = HB_SET_VALUE_INVALID;
+    while (hb_set_next(codes, &code)) {
+      hb_codepoint_t glyph = 0;
+      if (!hb_font_get_nominal_glyph(state_->faces[f], code, &glyph)) continue;
+      if (glyph >= face.glyph_count) continue;
+      const auto advance =
+          static_cast<std::int16_t>(hb_font_get_glyph_h_advance(state_->faces[f], glyph));
+      out.push_back({code, static_cast<std::uint16_t>(face.first_glyph + glyph), advance});
+    }
+    hb_set_destroy(codes);
+  }
+  const auto before = [](const auto& a, const auto& b) { return a.code < b.code; };
+  std::stable_sort(out.begin(), out.end(), before);
+  const auto same = [](const auto& a, const auto& b) { return a.code == b.code; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
+  return out;
+}
+
 ShapedText Shaper::shape(const ShapeRequest& request) const {
   ShapedText out;
   std::vector<Letter> letters = decode(request);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/agent/programme.h"
+#include "core/agent/type_case.h"
 #include "core/pack/font.h"
 
 namespace caryatid::app {
@@ -36,6 +37,8 @@ class Shaper {
   Shaper& operator=(const Shaper&) = delete;
 
   ShapedText shape(const ShapeRequest& request) const;
+  // Every letter of the fonts as it looks by itself, by code; the first face that has it.
+  std::vector<agent::TypeLetter> letters() const;
 
  private:
   struct State;

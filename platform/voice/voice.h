@@ -18,6 +18,7 @@ struct SayJob {
   std::string_view language = "en";  // BCP 47, at most 31 bytes.
   bool ssml = false;
   float rate = 1.0f, pitch = 1.0f;  // Of the voice's own, 0.5..2.
+  float range = 1.0f;               // Of its melody, the same.
   std::string_view recording = {};  // For the recorded voice: the name of its files, no suffix.
 };
 

@@ -35,7 +35,7 @@ bool sizes(Type type, std::size_t* least, std::size_t* most) {
     case Type::refused:
       return set(1, 1);
     case Type::say:
-      return set(6, kMostBytes);
+      return set(kSayBytes, kMostBytes);
     case Type::cancel:
       return set(0, 0);
   }

@@ -7,8 +7,8 @@
 //
 //   voice -> kiosk                                   kiosk -> voice
 //   hello     u32 version, u32 samples a second      say     u8 ssml, u8 bytes of language,
-//   pcm       i16 samples, mono                              u16 rate, u16 pitch (percent),
-//   phone     i32 time, IPA in UTF-8                         language, text in UTF-8
+//   pcm       i16 samples, mono                              u16 rate, u16 pitch, u16 range
+//   phone     i32 time, IPA in UTF-8                         (percent), language, text in UTF-8
 //   word      i32 time, u32 first byte, u32 end      cancel  (no payload)
 //   mark      i32 time, name
 //   sentence  i32 time
@@ -24,12 +24,13 @@
 
 namespace caryatid::platform::wire {
 
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr std::size_t kHeadBytes = 8;
 inline constexpr std::size_t kMostPcmBytes = 4096;
 inline constexpr std::size_t kMostNameBytes = 32;
-// The longest record is a say: six bytes, a language and the text.
-inline constexpr std::size_t kMostBytes = 6 + 31 + kMaxSpeechBytes;
+// The longest record is a say: its numbers, a language and the text.
+inline constexpr std::size_t kSayBytes = 8;
+inline constexpr std::size_t kMostBytes = kSayBytes + 31 + kMaxSpeechBytes;
 static_assert(kMostBytes <= 0xFFFF);
 inline constexpr std::int32_t kMostTime_ms = 3'600'000;
 

@@ -155,7 +155,7 @@ Status EspeakProcess::say(const SayJob& job, std::int64_t now_us) {
   const auto percent = [](float x) {
     return static_cast<std::uint16_t>(std::clamp(x, 0.5f, 2.0f) * 100.0f + 0.5f);
   };
-  const std::size_t payload = 6 + job.language.size() + job.text.size();
+  const std::size_t payload = wire::kSayBytes + job.language.size() + job.text.size();
   ++utterance_;
   text_bytes_ = static_cast<std::uint32_t>(job.text.size());
   std::byte* at = request_.data();
@@ -165,8 +165,10 @@ Status EspeakProcess::say(const SayJob& job, std::int64_t now_us) {
   at[1] = static_cast<std::byte>(job.language.size());
   wire::put_u16(percent(job.rate), at + 2);
   wire::put_u16(percent(job.pitch), at + 4);
-  std::memcpy(at + 6, job.language.data(), job.language.size());
-  std::memcpy(at + 6 + job.language.size(), job.text.data(), job.text.size());
+  wire::put_u16(percent(job.range), at + 6);
+  at += wire::kSayBytes;
+  std::memcpy(at, job.language.data(), job.language.size());
+  std::memcpy(at + job.language.size(), job.text.data(), job.text.size());
   request_bytes_ = wire::kHeadBytes + payload;
   request_sent_ = 0;
   pcm_count_ = pcm_taken_ = 0;

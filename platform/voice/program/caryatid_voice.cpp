@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -179,7 +180,7 @@ class Program {
     utterance_ = record.utterance;
     const bool ssml = record.payload[0] != std::byte{0};
     const auto language_bytes = std::to_integer<std::size_t>(record.payload[1]);
-    const auto rest = record.text(6);
+    const auto rest = record.text(wire::kSayBytes);
     if (language_bytes > rest.size()) return refuse(VoiceTrouble::refused_text);
     std::string language(rest.data(), language_bytes);
     for (char& c : language) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
@@ -189,7 +190,11 @@ class Program {
     last_end_ = 0;
     const int rate = 175 * record.u16(2) / 100;  // 175 words a minute are espeak-ng's own pace.
     espeak_SetParameter(espeakRATE, std::clamp(rate, 80, 450), 0);
-    espeak_SetParameter(espeakPITCH, std::clamp(50 * record.u16(4) / 100, 0, 100), 0);
+    // 50 is the voice's own, an octave lies 50 above.
+    const double octaves = std::log2(std::max(record.u16(4), std::uint16_t{1}) / 100.0);
+    espeak_SetParameter(espeakPITCH, std::clamp(static_cast<int>(50.5 + 50.0 * octaves), 0, 100),
+                        0);
+    espeak_SetParameter(espeakRANGE, std::clamp(50 * record.u16(6) / 100, 0, 100), 0);
     trace_->restart();
     samples_ = 0;
     cancelled_ = false;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/golden/program/pixels.h"
 #include "tests/golden/program/program.h"
 
 namespace caryatid::golden {
@@ -84,6 +85,62 @@ TEST_F(Speech, AMissingLanguageLeavesTheWords) {
   EXPECT_THAT(run.output, HasSubstr("does not know this language"));
   EXPECT_LT(first_sound_s(), 0.0);
   EXPECT_EQ(most("word"), 2.0);
+}
+
+// A programme in Klingon, which the voice does not know, and English.
+TEST_F(Speech, AMissingLanguageGoesOnInTheNextOne) {
+  std::filesystem::create_directories(folder_ / "texts");
+  const auto config = write_file(folder_ / "kiosk.toml",
+                                 "languages = ['tlh', 'en']\n[[page]]\nname = 'p'\n"
+                                 "[[button]]\nname = '1'\ngo = 'p'\n");
+  write_file(folder_ / "texts/tlh.toml", "voice = 'tlh'\n[p]\nsay = 'nuqneH'\n");
+  write_file(folder_ / "texts/en.toml", "voice = 'en'\n[p]\nsay = 'What do you want now'\n");
+  const auto script = write_file(folder_ / "script", "0.1 1 down\n0.2 1 up\n3 1 down\n");
+  const Outcome run = say("--config " + config.string() + " --script " + script.string(), "5");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("goes on in en, the next language"));
+  EXPECT_GE(first_sound_s(), 0.1);
+  EXPECT_LE(first_sound_s(), 0.6);
+  EXPECT_EQ(most("word"), 4.0);
+  // Once is enough: the second time the voice is not asked for Klingon any more.
+  EXPECT_EQ(run.output.find("goes on in"), run.output.rfind("goes on in")) << run.output;
+}
+
+// The feeling of the button colours the sentence that it says.
+TEST_F(Speech, AFeelingIsHeard) {
+  const std::string arguments = "--script " + (folder_ / "script").string() + " --config " +
+                                (folder_ / "kiosk.toml").string();
+  std::filesystem::create_directories(folder_ / "texts");
+  write_file(folder_ / "texts/en.toml", "[p]\nsay = 'The museum is open until nine.'\n");
+  write_file(folder_ / "script", "0 1 down\n");
+  std::vector<double> heard_ms;
+  for (const char* feel : {"calm", "joy", "sadness"}) {
+    write_file(folder_ / "kiosk.toml", std::string("[[page]]\nname = 'p'\nfeel = '") + feel +
+                                           "'\n[[button]]\nname = '1'\ngo = 'p'\n");
+    ASSERT_EQ(say(arguments, "5").exit_code, 0);
+    heard_ms.push_back(most("heard_ms"));
+  }
+  EXPECT_LT(heard_ms[1], 0.97 * heard_ms[0]);
+  EXPECT_GT(heard_ms[2], 1.01 * heard_ms[0]);
+}
+
+// What another program lets her say is read, too, word by word.
+TEST_F(Speech, ATextOfTheCommandLineHasCaptions) {
+  const auto dark = [this](const std::string& more) {
+    const Outcome run = run_program(more + " --display surfaceless --size 320x192 --virtual-clock" +
+                                    " --audio null --duration 1.01 --frames-every 30" +
+                                    " --frames-out " + folder_.string());
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    const Pixels p = read_png(folder_ / "frame_00030.png");
+    // Near black among the picture's lower middle: the ground of captions.
+    std::size_t count = 0;
+    for (int y = p.height * 7 / 10; y < p.height; ++y)
+      for (int x = p.width / 4; x < p.width * 3 / 4; ++x)
+        count += p.rgb[p.at(x, y)] < 40 && p.rgb[p.at(x, y) + 2] < 50;
+    return count;
+  };
+  const std::size_t without = dark("");
+  EXPECT_GT(dark("--say 'Welcome to the museum of Caryatids'"), without + 1500);
 }
 
 TEST_F(Speech, AMissingVoiceLeavesTheWords) {

@@ -44,10 +44,19 @@ TEST(Layout, LargeTextIsLarger) {
   EXPECT_GE(large.caption_px, 1.3f * small.caption_px);
 }
 
-TEST(Layout, WithoutACardThePersonHasThePicture) {
-  const Layout l = lay_out({800, 480, false, false});
-  EXPECT_EQ(l.person, (Box{0, 0, 800, 480}));
+TEST(Layout, WithoutACardThePersonHasThePictureButForCaptions) {
+  LayoutRequest request{.card = false, .captions = false};
+  EXPECT_EQ(lay_out(request).person, (Box{0, 0, 800, 480}));
+  request.captions = true;
+  const Layout l = lay_out(request);
+  EXPECT_EQ(l.person, (Box{0, 0, 800, l.caption.y0}));
   EXPECT_TRUE(l.card.empty());
+}
+
+// A head that fills the picture: the camera has yet to make room.
+TEST(Layout, CaptionsWaitWhereTheHeadIsEverywhere) {
+  const Layout l = lay_out({.card = false});
+  EXPECT_TRUE(caption_box(l, 2, 600, {200, 50, 600, 470}).empty());
 }
 
 // On any display that a kiosk has (and on tiny pictures where the camera has put her).

@@ -82,7 +82,7 @@ int main(int, char** arguments) {
     }
     if (!status.ok()) return 2;
     if (request.type != Type::say) continue;
-    const auto rest = request.text(6);
+    const auto rest = request.text(wire::kSayBytes);
     const auto language = std::to_integer<std::size_t>(request.payload[1]);
     const std::string_view text(rest.data() + language, rest.size() - language);
     if (behave(how, request.utterance, text)) speak(request.utterance, text.size());

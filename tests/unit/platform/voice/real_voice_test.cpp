@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -60,6 +61,39 @@ class RealVoice : public ::testing::Test {
     for (std::size_t i = from; i < std::min(from + 1100, samples_.size()); ++i)
       most = std::max(most, std::abs(int{samples_[i]}));
     return most;
+  }
+
+  // Median fundamental frequency, and the spread of its middle four fifths, of what was heard: by
+  // the first high peak of the autocorrelation in windows of 40 ms.
+  struct Melody {
+    double median_hz = 0.0, spread_hz = 0.0;
+  };
+  Melody melody() const {
+    const auto rate = static_cast<int>(voice_->rate_hz());
+    const std::size_t window = static_cast<std::size_t>(rate) / 25;
+    std::vector<double> hz;
+    for (std::size_t at = 0; at + 2 * window < samples_.size(); at += window / 2) {
+      const auto likeness = [&](std::size_t lag) {
+        double both = 0.0, a = 1e6, b = 1e6;
+        for (std::size_t i = at; i < at + window; ++i) {
+          both += double(samples_[i]) * samples_[i + lag];
+          a += double(samples_[i]) * samples_[i];
+          b += double(samples_[i + lag]) * samples_[i + lag];
+        }
+        return both / std::sqrt(a * b);
+      };
+      std::size_t best = 0;
+      double most = 0.8;
+      for (auto lag = static_cast<std::size_t>(rate / 260); lag < window * 4 / 5; ++lag)
+        if (const double l = likeness(lag); l > most + 0.02) {
+          most = l;
+          best = lag;
+        }
+      if (best > 0) hz.push_back(double(rate) / static_cast<double>(best));
+    }
+    if (hz.size() < 10) return {};
+    std::sort(hz.begin(), hz.end());
+    return {hz[hz.size() / 2], hz[hz.size() * 9 / 10] - hz[hz.size() / 10]};
   }
 
   std::unique_ptr<Voice> voice_;
@@ -127,6 +161,19 @@ TEST_F(RealVoice, EightLanguagesSpeakAndMoveTheLips) {
     });
     EXPECT_EQ(unknown, 0) << language << ": phonemes that the IPA chart here lacks";
   }
+}
+
+TEST_F(RealVoice, PaceAndMelodyAreAskedFor) {
+  const std::string_view text = "Are you really going to the museum tomorrow morning?";
+  ASSERT_TRUE(hear({.text = text}).ok());
+  const std::size_t own = samples_.size();
+  const Melody plain = melody();
+  ASSERT_TRUE(hear({.text = text, .rate = 1.3f}).ok());
+  EXPECT_LT(samples_.size(), own * 9 / 10);
+  ASSERT_TRUE(hear({.text = text, .pitch = 1.4f}).ok());
+  EXPECT_GT(melody().median_hz, 1.2 * plain.median_hz);
+  ASSERT_TRUE(hear({.text = text, .range = 1.8f}).ok());
+  EXPECT_GT(melody().spread_hz, 1.15 * plain.spread_hz);
 }
 
 TEST_F(RealVoice, RegionsFallBackToTheirLanguage) {
