@@ -575,6 +575,7 @@ void Kiosk::measure(const Tick& tick) {
 
 // Where the arena goes, a line a section.
 void Kiosk::print_memory() {
+  std::puts("memory that the agent takes at start and keeps:");
   std::size_t sum = 0;
   const auto line = [&sum](const char* what, std::size_t bytes) {
     std::printf("  %-16s %10zu bytes\n", what, bytes);
@@ -617,7 +618,9 @@ bool Kiosk::check(const Options& options) {
   }
   if (ok && !options.play.empty()) ok = kiosk.player_.open(options.play, &error);
   if (!ok) platform::log(Event::pack_refused, "%s", error.c_str());
-  if (ok) std::puts("caryatid: configuration and pack are sound");
+  if (ok)
+    std::puts(options.pack.empty() ? "caryatid: the configuration is sound"
+                                   : "caryatid: configuration and pack are sound");
   if (ok && !options.pack.empty()) kiosk.print_memory();
   return ok;
 }

@@ -15,56 +15,71 @@ constexpr char kHelp[] =
 
 usage: caryatid [OPTIONS]
 
-  --config FILE          kiosk.toml: buttons and what they do (default: the built-in programme)
-  --pack FILE            the character, made by caryatid-tool bake (default: a built-in face)
+what is shown
+  --config FILE          kiosk.toml: buttons, pages, texts (default: the built-in programme)
+  --pack FILE            the person, made by caryatid-tool bake (default: a built-in face)
   --display KIND         auto, drm, window, surfaceless or none (default auto); drm-legacy is drm
                          without atomic mode setting, for a driver that gets it wrong
   --size WxH             pixels of a window or surfaceless picture (default 800x480), or the
                          screen's mode (default: what the screen prefers)
-  --rotate DEGREES       0, 90, 180 or 270
+  --rotate DEGREES       0, 90, 180 or 270: how the screen is mounted
   --target-fps N         frames a second, 1..120 (default 30)
   --view NAME            auto (the person walks in and the camera comes to the head), or stay at
                          head, bust or body (default auto; a face without legs: head)
   --lod auto|N|OBJECT=N,...   triangles: chosen by the frame budget, of the whole person, or by
                          object (head, body, hair, clothes, eye, mouth, brow, lash)
-  --script FILE          recorded button events, one a line: SECONDS NAME down|up
-  --virtual-clock        time advances by one frame period a frame: same input, same output
-  --now DATE             date and time at which that clock starts, YYYY-MM-DDThh:mm (default
-                         2026-11-25T10:00)
-  --board NAME           whose costs the frame budget sees under --virtual-clock: pi-zero-2w
-                         (default), pi3, pi4, mali450, gc7000
-  --duration S           stop after S seconds
-  --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of it
-  --bap-axes NAME        how --play's body stream turns joints: signed (default), reversed order,
-                         or plain (all about the positive axes)
-  --joint-limits         keeps every joint within human limits and says which were exceeded
   --sleep S              without a visitor for S seconds the person walks off (default 90); she
                          comes again at a press, or after 30 seconds
+  --seed N               another idle life (default 1)
+
+what is heard
   --audio KIND           auto, alsa, alsa:DEVICE, file:PATH.wav or null (default auto: ALSA's
                          default device, else null; under --virtual-clock null)
   --voice PATH           the program that speaks (default: caryatid-voice beside this one)
   --recordings DIR       texts that caryatid-tool speech bake or time has put there are played,
                          not synthesised
-  --say TEXT             speak this at the start, in --language TAG (default en)
-  --frames-out DIR       write PNG frames and a contact sheet;  --frames-every N  of each N-th frame
-  --metrics FILE         JSON lines, one a frame
+  --say TEXT             speak this at the start
+  --language TAG         its language: en, el, de, pt-br, ... (default en)
+
+as a service
+  --check                look at config and pack, say what is wrong, and exit
+  --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
   --control PATH         listen at a Unix socket, one line a command: press NAME, release NAME,
                          feel EMOTION [0..1], say TEXT, play FILE.fba, play, status, help
   --status FILE          the kiosk's state as one line of JSON, every 5 s
   --prometheus FILE      the same as Prometheus text, for node_exporter's textfile collector
   --state DIR            a folder for what outlives a power cut (default: $STATE_DIRECTORY)
-  --list-hardware        what screens, GPIO lines, HID and sound devices there are, and the GPU
-  --seed N               another idle life (default 1)
-  --test-faults          for tests: SIGUSR1 stops the page flips, SIGRTMIN the input loop, SIGUSR2
-                         is a GPU reset
+  --metrics FILE         JSON lines, one a frame: times, triangles, emotion, mouth, and in the
+                         frame of a press its time to the screen (reaction_ms)
+
+to try and to test
+  --script FILE          recorded button events, one a line: SECONDS NAME down|up
+  --duration S           stop after S seconds
+  --frames-out DIR       write PNG pictures and a contact sheet
+  --frames-every N       of each N-th frame (default 1)
+  --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of the programme
+  --bap-axes NAME        how --play's body stream turns joints: signed (default), reversed (signed,
+                         in the opposite order) or plain (all about the positive axes)
+  --joint-limits         keeps every joint within human limits and says which were exceeded
+  --virtual-clock        time advances by one frame period a frame: same input, same output
+  --now DATE             date and time at which that clock starts, YYYY-MM-DDThh:mm (default
+                         2026-11-25T10:00)
+  --board NAME           whose costs the frame budget sees under that clock: pi-zero-2w (default),
+                         pi3, pi4, mali450, gc7000
+  --test-faults          SIGUSR1 stops the page flips, SIGRTMIN the input loop, SIGUSR2 is a GPU
+                         reset
   --compile-programme FILE   compile a kiosk.toml and its texts to stdout (the kiosk does this by
                          itself, in a child process, when a text changes while it runs)
-  --check                look at config and pack, say what is wrong, and exit
   --help, --version
 
-Keys 1 to 9 of a window stand for the buttons in their order.
-example: caryatid --pack woman.pack --display surfaceless --virtual-clock --script default.script \
-                  --duration 20 --frames-out out --frames-every 5 --metrics out/metrics.jsonl
+Keys 1 to 9 of a window stand for the buttons in their order. Exit codes: 0 done, 1 failed (a line
+says why), 2 wrong usage. Under systemd each line is in the journal with its event's name:
+journalctl CARYATID_EVENT=button-lost.
+
+examples: caryatid --pack woman.pack
+          caryatid --check --config kiosk.toml --pack woman.pack
+          caryatid --pack woman.pack --display surfaceless --virtual-clock \
+                   --script default.script --duration 20 --frames-out out --frames-every 5
 )";
 
 enum Id : int {

@@ -27,9 +27,12 @@ TEST(Messages, HelpIsWhole) {
   const Outcome run = run_program("--help");
   EXPECT_EQ(run.exit_code, 0);
   for (const char* option :
-       {"--config", "--pack", "--display", "--size", "--rotate", "--target-fps", "--script",
-        "--virtual-clock", "--board", "--duration", "--frames-out", "--frames-every", "--metrics",
-        "--play", "--lod", "--check", "--now", "--compile-programme", "example:"})
+       {"--config",     "--pack",         "--display",           "--size",     "--rotate",
+        "--target-fps", "--script",       "--virtual-clock",     "--board",    "--duration",
+        "--frames-out", "--frames-every", "--metrics",           "--play",     "--lod",
+        "--check",      "--now",          "--compile-programme", "--control",  "--status",
+        "--prometheus", "--state",        "--list-hardware",     "--language", "--audio",
+        "--sleep",      "examples:"})
     EXPECT_NE(run.output.find(option), std::string::npos) << option;
 }
 
