@@ -252,6 +252,7 @@ class Steps(Session):
         self.wait_running()
 
     def expect_watchdog(self, what, signal_name):
+        self.forgive()
         restarts, since_s = int(self.unit("NRestarts")), self.now_s()
         self.board.run(f"kill -{signal_name} " + self.unit("MainPID"))
         bitten_s = self.wait_told("Watchdog timeout", 60, since_s) - since_s
