@@ -78,11 +78,12 @@ class Machine:
             "-qmp", f"unix:{self.qmp_path},server=on,wait=off"]
 
     def __enter__(self):
-        self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL)
+        with open(os.path.join(self.folder, "qemu.log"), "w", encoding="utf-8") as log:
+            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stderr=log)
         wait_for("QEMU", 20, lambda: os.path.exists(self.qmp_path) or self.process.poll())
         time.sleep(0.2)
         if self.process.poll() is not None:
-            raise Timeout("QEMU does not start; is qemu-system-arm installed?")
+            raise Timeout(f"QEMU does not start; see {self.folder}/qemu.log")
         self.started = time.monotonic()
         self.link = connect(self.qmp_path)
         self.link.settimeout(None)  # Minutes may pass between two events.

@@ -212,7 +212,8 @@ class Steps(Session):
         self.wait_running(1)
         self.board.press_button()
         self.wait("a lit screen", 10, lambda: self.board.run(f"cat {SCREEN}/dpms") == "On")
-        self.wait_frames(2)
+        self.wait_feeling("joy")
+        self.pass_time(1.5)
         self.expect_mood(self.dump("woken"), "joy", "calm")
         check(True, "dark when nobody is there, woken by the button, no restart by the watchdog")
 
