@@ -14,6 +14,7 @@ run    opens a window where DISPLAY or WAYLAND_DISPLAY is set; elsewhere it play
        programme's recorded script for 20 s and leaves pictures, plot and metrics under out/.
 test   uses other people's data from the folder that CARYATID_TEST_DATA names, where it is set.
 build  leaves programs in build/host-release/bin and packs in build/host-release/packs.
+       TARGETS="NAME..." builds only these.
 
 example: cross/host.sh run -- --pack build/host-release/packs/man.pack --size 800x480
 TEXT
@@ -143,10 +144,12 @@ build_preset() {
   shift
   step "configure $name" cmake --preset "$name" "$@"
   if [ -t 1 ]; then  # Ninja shows its own progress line.
-    NINJA_STATUS="caryatid: build $name [%f/%t] " ninja -C "build/$name" ||
+    # shellcheck disable=SC2086  # Several targets, or none for all.
+    NINJA_STATUS="caryatid: build $name [%f/%t] " ninja -C "build/$name" ${TARGETS:-} ||
       fail "build $name failed"
   else
-    step "build $name" ninja -C "build/$name"
+    # shellcheck disable=SC2086
+    step "build $name" ninja -C "build/$name" ${TARGETS:-}
   fi
 }
 

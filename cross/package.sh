@@ -7,6 +7,8 @@ usage() {
   cat <<'TEXT'
 usage: cross/package.sh [arm64|armhf] [bookworm|trixie]   packages for a board
        cross/package.sh amd64                             packages for a PC like this one
+       cross/package.sh try [bookworm|trixie]             installs, tries, upgrades and purges those
+                                                          of the PC in a fresh Debian
 
 Default: arm64 bookworm. Cross-compiles (cross/board.sh), bakes the characters (cross/host.sh) and
 checks what came out with lintian. The packages lie in build/packages/RELEASE/:
@@ -108,18 +110,18 @@ check_packages() {
 
 build() {
   if [ "$arch" != amd64 ]; then
-    TARGETS="$programs" ./cross/board.sh build "$arch" "$release" -DCARYATID_HOST_TOOLS=ON
+    ./cross/board.sh build "$arch" "$release" -DCARYATID_HOST_TOOLS=ON
     return
   fi
   cmake --preset host-release -B "$folder" >"$folder.log" 2>&1 ||
     fail "configuring failed; $folder.log says why"
   # shellcheck disable=SC2086  # Several targets.
-  nice ninja -C "$folder" --quiet $programs || fail "building failed"
+  nice ninja -C "$folder" --quiet $TARGETS || fail "building failed"
 }
 
 main() {
   local folder=build/cross-$arch-$release out=build/packages/$release
-  local programs="caryatid caryatid-voice caryatid-tool"
+  export TARGETS="caryatid caryatid-voice caryatid-tool"
   ./cross/host.sh build
   build
   make_manuals
@@ -144,9 +146,27 @@ main() {
   ls -l "$out"/*.deb | awk '{printf "caryatid: %8.1f KiB  %s\n", $5 / 1024, $9}'
 }
 
+try_packages() {
+  local packages scratch mode=()
+  packages=(build/packages/"$release"/*_amd64.deb build/packages/"$release"/*_all.deb)
+  [ -f "${packages[0]}" ] || fail "no packages; first run cross/package.sh amd64"
+  [ "$(id -u)" -eq 0 ] && mode=(--mode=root)
+  scratch=build/packages/try
+  rm -rf "$scratch"
+  mkdir -p "$scratch/packages"
+  cp "${packages[@]}" "$scratch/packages"
+  cp tests/board/install.sh "$scratch"
+  # shellcheck disable=SC2016  # $1 is mmdebstrap's.
+  mmdebstrap --quiet --variant=minbase "${mode[@]}" --include=systemd,udev \
+    --customize-hook="copy-in $scratch/packages $scratch/install.sh /tmp" \
+    --customize-hook='chroot "$1" /tmp/install.sh' "$release" /dev/null \
+    http://deb.debian.org/debian
+}
+
 arch=${1:-arm64}
 release=${2:-bookworm}
 case "$arch $release" in
+  "try bookworm" | "try trixie") try_packages ;;
   "amd64 bookworm" | "arm64 bookworm" | "arm64 trixie" | "armhf bookworm" | "armhf trixie") main ;;
   *)
     usage

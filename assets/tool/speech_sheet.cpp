@@ -64,7 +64,7 @@ void draw_wave(const Spoken& spoken, const Row& row, std::uint32_t y, std::uint3
     };
     int most = 0;
     for (std::uint64_t s = sample_at(x); s < sample_at(x + 1) && s < spoken.samples.size(); ++s)
-      most = std::max(most, std::abs(int{spoken.samples[s]}));
+      most = std::max(most, std::abs(int{spoken.samples[static_cast<std::size_t>(s)]}));
     const auto half = static_cast<std::uint32_t>(most) * height / 2 / 32768;
     fill_box({x, y + height / 2 - half, 1, 2 * half + 1}, 200, to);
   }

@@ -199,7 +199,8 @@ Spoken read_wav(const std::string& path) {
     int sum = 0;
     for (std::uint64_t c = 0; c < format.channels; ++c) {
       std::int16_t sample = 0;
-      std::memcpy(&sample, &bytes[format.data_offset + 2 * (f * format.channels + c)], 2);
+      const std::uint64_t at = format.data_offset + 2 * (f * format.channels + c);
+      std::memcpy(&sample, &bytes[static_cast<std::size_t>(at)], 2);
       sum += sample;
     }
     out.samples.push_back(static_cast<std::int16_t>(sum / format.channels));

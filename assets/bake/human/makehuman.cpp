@@ -33,7 +33,7 @@ struct BaseHuman::Mapping {
   explicit Mapping(const std::filesystem::path& file) {
     const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0) throw std::runtime_error(file.string() + ": cannot be opened");
-    bytes = std::filesystem::file_size(file);
+    bytes = static_cast<std::size_t>(std::filesystem::file_size(file));
     void* memory = ::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, fd, 0);
     ::close(fd);
     if (memory == MAP_FAILED) throw std::runtime_error(file.string() + ": cannot be mapped");

@@ -238,8 +238,9 @@ History parse_history(std::string_view bytes, const std::string& name) {
   if (bytes.size() - sizeof header != base_bytes + split_bytes)
     fail("the file is not as long as its header says");
   bytes.remove_prefix(sizeof header);
-  if (crc(bytes.substr(0, base_bytes)) != header.base_crc) fail("the base mesh is damaged");
-  if (crc(bytes.substr(base_bytes)) != header.splits_crc) fail("the splits are damaged");
+  const auto base_end = static_cast<std::size_t>(base_bytes);  // Within the file, as just seen.
+  if (crc(bytes.substr(0, base_end)) != header.base_crc) fail("the base mesh is damaged");
+  if (crc(bytes.substr(base_end)) != header.splits_crc) fail("the splits are damaged");
   History h;
   h.base.position.resize(header.base_vertices);
   h.base.triangles.resize(header.base_triangles);

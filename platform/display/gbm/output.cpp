@@ -101,8 +101,8 @@ void read_modifiers(int card, std::uint64_t blob_id, Output& out) {
   const auto bytes = std::span(static_cast<const std::byte*>(blob->data), blob->length);
   drm_format_modifier_blob head{};
   std::memcpy(&head, bytes.data(), sizeof head);
-  const std::size_t formats_end = head.formats_offset + 4ull * head.count_formats;
-  const std::size_t modifiers_end =
+  const std::uint64_t formats_end = head.formats_offset + 4ull * head.count_formats;
+  const std::uint64_t modifiers_end =
       head.modifiers_offset + sizeof(drm_format_modifier) * std::uint64_t{head.count_modifiers};
   if (formats_end > bytes.size() || modifiers_end > bytes.size()) return;
   for (std::uint32_t m = 0; m < head.count_modifiers; ++m) {
