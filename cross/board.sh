@@ -8,6 +8,9 @@ usage() {
   cat <<'TEXT'
 usage: cross/board.sh build [arm64|armhf] [bookworm|trixie] [CMAKE-ARGS]   cross-compile the agent
        cross/board.sh unit  [arm64|armhf] [bookworm|trixie]   and run the board code's tests
+       cross/board.sh image           a disk image for Raspberry Pi Zero 2 W, 3 and 4 and for UEFI
+                                      boards: build/image/kiosk.img; see cross/image/README.md
+       cross/board.sh image try       the same, then booted on an emulated board
        cross/board.sh test  [STEPS]   the kiosk on an emulated board, from power-on; see
                                       tests/board/emulated.py --help for the steps
 
@@ -37,6 +40,10 @@ board_packages=(systemd systemd-sysv udev kmod busybox-static linux-image-arm64 
   libgl1-mesa-dri libegl-mesa0 libgbm1 libdrm2 libgpiod2 libhidapi-hidraw0 libx11-6
   libwayland-client0 libwayland-egl1 libasound2 libespeak-ng1 libstdc++6 libharfbuzz0b libfribidi0
   libunibreak1)
+# For the image, beside what our packages depend on.
+image_packages=(systemd systemd-sysv udev kmod mount util-linux e2fsprogs busybox-static
+  base-files libc-bin base-passwd linux-image-arm64 raspi-firmware systemd-boot-efi
+  libgl1-mesa-dri tzdata)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"
 
 say() { printf '%s\n' "caryatid: $*"; }
@@ -163,9 +170,60 @@ emulated_test() {
     --host "$host" --out build/board ${1:+--steps "$1"}
 }
 
+# The image's Debian, unpacked and prepared once for a set of packages and a recipe.
+make_image_tree() {
+  local names scratch key deb mode=()
+  names=$(for deb in "$@"; do dpkg-deb -f "$deb" Depends; done | sed -e 's/([^)]*)//g' |
+    tr -s ', ' '\n\n' | sort -u)
+  names="${image_packages[*]} ${names//$'\n'/ }"
+  key=$({ printf '%s' "$names"; cat cross/image/make.py cross/image/init; } | sha256sum |
+    cut -c1-12)
+  tree="$cache/image-$key"
+  [ -d "$tree" ] && return 0
+  mkdir -p "$cache"
+  scratch=$(mktemp -d "$cache/unpack.XXXXXX")
+  chmod 755 "$scratch"
+  [ "$(id -u)" -eq 0 ] && mode=(--mode=root)
+  say "unpacking the image's Debian"
+  # shellcheck disable=SC2086  # One name a word.
+  mmdebstrap --quiet --variant=extract "${mode[@]}" --skip=check/qemu --architectures=arm64 \
+    --components=main,non-free-firmware --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr \
+    --include="$(echo $names | tr ' ' ',')" bookworm "$scratch" \
+    http://deb.debian.org/debian >"$cache/image.log" 2>&1 ||
+    { rm -rf "$scratch"; fail "no tree for the image; $cache/image.log says why"; }
+  python3 cross/image/make.py prepare "$scratch" || fail "the image's tree can't be prepared"
+  mv -T "$scratch" "$tree"
+}
+
+make_image() {
+  local debs=() payload=build/image/payload deb name
+  for name in caryatid caryatid-data caryatid-voice; do
+    deb=$(ls -t build/packages/bookworm/"$name"_*_{arm64,all}.deb 2>/dev/null | head -1 || true)
+    [ -n "$deb" ] || fail "$name is not packed; first run cross/package.sh arm64"
+    debs+=("$deb")
+  done
+  packages+=(squashfs-tools dosfstools mtools fdisk e2fsprogs cpio kmod zstd fakeroot)
+  [ "$try" != try ] || packages+=(qemu-system-arm)
+  install_packages
+  make_image_tree "${debs[@]}"
+  rm -rf "$payload"
+  mkdir -p "$payload"
+  for deb in "${debs[@]}"; do dpkg-deb -x "$deb" "$payload"; done
+  # What the deployer's folder is made from belongs to root whoever builds it.
+  SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || echo 1700000000) \
+    fakeroot python3 cross/image/make.py image "$tree" "$payload" build/image
+  say "build/image/kiosk.img; onto a card: dd if=build/image/kiosk.img of=/dev/sdX bs=4M"
+  [ "$try" != try ] || python3 tests/board/image.py --out build/image
+}
+
 if [ "${1:-}" = test ]; then
   steps=${2:-}
   set -- test
+fi
+try=
+if [ "${1:-}" = image ]; then
+  try=${2:-}
+  set -- image
 fi
 arch=${2:-arm64}
 release=${3:-bookworm}
@@ -204,6 +262,7 @@ case "${1:-}" in
     compare_hashes
     ctest --test-dir "$folder" --output-on-failure -j "$(nproc)"
     ;;
+  image) make_image ;;
   test) emulated_test "$steps" ;;
   -h | --help | help) usage ;;
   *)

@@ -39,9 +39,8 @@ drivers/(virtio|clk|gpio|pinctrl|regulator|reset|soc|firmware|mailbox|dma|phy|pw
 drivers/(thermal|cpufreq|hwmon|leds|mmc|hid|char/hw_random|usb/host|usb/core|usb/dwc2|usb/dwc3)/
 drivers/(usb/storage/usb-storage|usb/phy|usb/common|scsi/sd_mod|block/virtio_blk|block/loop)
 drivers/(char/virtio_console|i2c/busses/i2c-bcm|i2c/i2c-dev|spi/spi-bcm|input/evdev|rtc/)
-drivers/(pci/controller|watchdog/(bcm2835_wdt|i6300esb|softdog)|bluetooth/$)
+drivers/(pci/controller|watchdog/(bcm2835_wdt|i6300esb|softdog))
 drivers/(gpu/drm/(vc4|v3d|virtio|panel|bridge)|video/backlight|media/cec/core|staging/vc04)
-drivers/(net/ethernet/broadcom/genet|net/usb/(lan78xx|smsc95xx)|net/phy/(broadcom|bcm|smsc|microchip))
 sound/(core|usb|soc/bcm|soc/codecs/(snd-soc-hdmi|snd-soc-pcm5102a|snd-soc-max98357a)|soc/generic)
 fs/(ext4|fat|overlayfs|squashfs|nls)/ crypto/crc32c lib/crc
 """.split()
@@ -57,9 +56,10 @@ FILES = {
     "etc/machine-id": "",  # One of its own at each start: nothing is kept that would need it.
     "etc/fstab":
         "PARTUUID=%08x-07 /data ext4 noatime,nofail,x-systemd.device-timeout=10 0 2\n" % DISK_ID +
-        "/data/state /var/lib/caryatid none bind,nofail,x-systemd.requires-mounts-for=/data 0 0\n"
-        "/data/cache /var/cache/caryatid none bind,nofail,x-systemd.requires-mounts-for=/data 0 0\n"
-        "/data/programme /etc/caryatid none bind,nofail,x-systemd.requires-mounts-for=/data 0 0\n",
+        "".join(f"/data/{kept} {place} none bind,nofail,x-systemd.requires-mounts-for=/data 0 0\n"
+                for kept, place in (("state", "/var/lib/caryatid"),
+                                    ("cache", "/var/cache/caryatid"),
+                                    ("programme", "/etc/caryatid"))),
     # 14 s: the Raspberry Pi's timer cannot more than 15.
     "etc/systemd/system.conf.d/caryatid.conf":
         "[Manager]\nRuntimeWatchdogSec=14\nRebootWatchdogSec=14\nShowStatus=no\n",
@@ -75,17 +75,20 @@ FILES = {
         "[Service]\nExecStart=/bin/sh\nStandardInput=tty\nStandardOutput=tty\nStandardError=tty\n"
         "TTYPath=/dev/%i\nRestart=always\n",
 }
-MASKED = ["systemd-networkd.service", "systemd-resolved.service", "systemd-timesyncd.service",
-          "systemd-hwdb-update.service", "ldconfig.service", "systemd-update-done.service",
-          "systemd-firstboot.service", "systemd-pstore.service", "getty.target", "getty@tty1.service",
-          "systemd-random-seed.service", "ctrl-alt-del.target", "systemd-journal-catalog-update.service",
-          "apt-daily.timer", "apt-daily-upgrade.timer", "fstrim.timer", "e2scrub_all.timer",
-          "e2scrub_reap.service", "dpkg-db-backup.timer", "systemd-machine-id-commit.service"]
-DROPPED = ["usr/share/doc", "usr/share/man", "usr/share/info", "usr/share/locale", "usr/share/lintian",
-           "usr/share/bug", "usr/share/X11", "usr/lib/udev/hwdb.d", "usr/share/zsh",
-           "usr/share/bash-completion", "usr/lib/systemd/boot", "usr/lib/raspi-firmware", "boot",
-           "usr/share/raspi-firmware", "etc/kernel", "etc/initramfs", "var/cache/apt", "var/lib/apt",
-           "var/lib/dpkg", "etc/apt", "usr/lib/systemd/catalog"]
+# Nothing here is of use to a kiosk without a network and with a root that cannot change.
+MASKED = """
+systemd-networkd.service systemd-resolved.service systemd-timesyncd.service
+systemd-hwdb-update.service ldconfig.service systemd-update-done.service systemd-firstboot.service
+systemd-pstore.service systemd-random-seed.service systemd-machine-id-commit.service
+systemd-journal-catalog-update.service systemd-sysusers.service getty.target
+getty@tty1.service ctrl-alt-del.target fstrim.timer e2scrub_all.timer e2scrub_reap.service
+""".split()
+DROPPED = """
+usr/share/doc usr/share/man usr/share/info usr/share/locale usr/share/lintian usr/share/bug
+usr/share/X11 usr/share/zsh usr/share/bash-completion usr/lib/udev/hwdb.d usr/lib/systemd/boot
+usr/lib/systemd/catalog usr/lib/raspi-firmware usr/share/raspi-firmware boot etc/kernel
+etc/initramfs var/cache/apt var/lib/apt var/lib/dpkg etc/apt
+""".split()
 
 CMDLINE = (f"caryatid.disk={DISK_ID:08x} caryatid.root=5 quiet loglevel=3 panic=10 "
            "vt.global_cursor_default=0 consoleblank=0 net.ifnames=0")
@@ -157,7 +160,8 @@ def make_initramfs(root, out):
     shutil.copy(os.path.join(HERE, "init"), os.path.join(scratch, "init"))
     source = modules_folder(root)
     target = os.path.join(scratch, "lib/modules", os.path.basename(source))
-    for path in sorted(modules_of(root, EARLY)) + ["modules.builtin", "modules.order"]:
+    for path in sorted(modules_of(root, EARLY)) + [
+            "modules.builtin", "modules.builtin.modinfo", "modules.order"]:
         os.makedirs(os.path.dirname(os.path.join(target, path)), exist_ok=True)
         shutil.copy(os.path.join(source, path), os.path.join(target, path))
     depmod(scratch)
@@ -199,7 +203,10 @@ def collect_boot(root, boot):
 def emulate(root, program, *arguments, library_path=True):
     """Runs one of the tree's own programs, so that any host will do."""
     prefix = ["qemu-aarch64-static"] + (["-L", root] if library_path else [])
-    run(*prefix, os.path.join(root, program), *arguments, stdout=subprocess.DEVNULL)
+    # fakeroot's library is none of the board's.
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    run(*prefix, os.path.join(root, program), *arguments, stdout=subprocess.DEVNULL,
+        env=environment)
 
 
 def prepare(root):
@@ -212,14 +219,14 @@ def prepare(root):
         shutil.rmtree(os.path.join(root, path), ignore_errors=True)
     for path in glob.glob(os.path.join(root, "usr/lib/linux-image-*")):
         shutil.rmtree(path)
-    for folder in ("proc", "sys", "run", "root", "dev", "tmp", "data", "var/log", "var/lib/caryatid",
-                   "var/cache/caryatid", "etc/caryatid"):
+    for folder in ("proc", "sys", "run", "root", "dev", "tmp", "data", "var/log",
+                   "var/lib/caryatid", "var/cache/caryatid", "etc/caryatid"):
         os.makedirs(os.path.join(root, folder), exist_ok=True)
-    # In place of base-passwd's and base-files' scripts.
+    # In place of base-passwd's and libc-bin's scripts.
     for name in ("passwd", "group"):
         shutil.copy(os.path.join(root, "usr/share/base-passwd", name + ".master"),
                     os.path.join(root, "etc", name))
-    shutil.copy(os.path.join(root, "usr/share/base-files/nsswitch.conf"), os.path.join(root, "etc"))
+    shutil.copy(os.path.join(root, "usr/share/libc-bin/nsswitch.conf"), os.path.join(root, "etc"))
     os.symlink("/proc/self/mounts", os.path.join(root, "etc/mtab"))
     for path, text in FILES.items():
         write(root, path, text)
@@ -301,12 +308,15 @@ def assemble(parts, out):
 
 
 def biggest(root, count=6):
-    sizes = {}
+    """The `count` folders that weigh most; hard links count once."""
+    sizes, seen = {}, set()
     for base, _, files in os.walk(root):
         top = "/".join(os.path.relpath(base, root).split("/")[:3])
         for name in files:
             path = os.path.join(base, name)
-            if not os.path.islink(path):
+            number = os.lstat(path).st_ino
+            if not os.path.islink(path) and number not in seen:
+                seen.add(number)
                 sizes[top] = sizes.get(top, 0) + os.path.getsize(path)
     return sorted(sizes.items(), key=lambda item: -item[1])[:count]
 
