@@ -72,8 +72,9 @@ FILES = {
     # command line, which only who holds the card can change.
     "etc/systemd/system/caryatid-shell@.service":
         "[Unit]\nDescription=Root shell on %i\nDefaultDependencies=no\n"
+        "StartLimitIntervalSec=0\n"  # Its line may come late.
         "[Service]\nExecStart=/bin/sh\nStandardInput=tty\nStandardOutput=tty\nStandardError=tty\n"
-        "TTYPath=/dev/%i\nRestart=always\n",
+        "TTYPath=/dev/%i\nRestart=always\nRestartSec=1\n",
 }
 # Nothing here is of use to a kiosk without a network and with a root that cannot change.
 MASKED = """

@@ -5,7 +5,6 @@ board. ./cross/board.sh image try runs it."""
 import argparse
 import json
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -69,8 +68,8 @@ def check_file_systems(out):
 
 
 def colours(path):
-    picture = read_ppm(path)
-    return len(set(zip(*[iter(picture.pixels)] * 3)))
+    rgb = read_ppm(path).rgb
+    return len(set(zip(rgb[0::3], rgb[1::3], rgb[2::3])))
 
 
 def wait_person(board, name):
@@ -130,7 +129,7 @@ def main():
         states = first_boot(board)
     with start(out, disk, SHELL) as board:
         second_boot(board, states)
-    shutil.rmtree(os.path.join(out, "try.img"), ignore_errors=True)
+    os.remove(disk)
 
 
 if __name__ == "__main__":
