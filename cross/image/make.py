@@ -155,7 +155,7 @@ def touch_all(root):
 def make_initramfs(root, out):
     scratch = out + ".tree"
     shutil.rmtree(scratch, ignore_errors=True)
-    for folder in ("bin", "dev", "proc", "sys", "root", "lower", "upper"):
+    for folder in ("bin", "dev", "proc", "sys", "whole", "lower", "upper"):
         os.makedirs(os.path.join(scratch, folder))
     shutil.copy(os.path.join(root, "bin/busybox"), os.path.join(scratch, "bin/busybox"))
     shutil.copy(os.path.join(HERE, "init"), os.path.join(scratch, "init"))

@@ -87,8 +87,9 @@ def start(out, disk, extra=""):
     boot = os.path.join(out, "boot/slot")
     with open(os.path.join(boot, "cmdline.txt"), encoding="utf-8") as file:
         line = file.read().strip().replace("console=ttyS1,115200", "console=ttyAMA0")
-    return Machine(out, os.path.join(boot, "vmlinuz"), os.path.join(boot, "initramfs.img"), disk,
-                   options=("-append", line + extra))
+    machine = Machine(out, os.path.join(boot, "vmlinuz"), os.path.join(boot, "initramfs.img"), disk)
+    machine.command[machine.command.index("-append") + 1] = line + extra
+    return machine
 
 
 def first_boot(board):

@@ -1,3 +1,12 @@
+# The exact hashes of poses and draw lists, for boards too; they have no software GPU when emulated.
+if(CMAKE_CROSSCOMPILING)
+  add_executable(golden_hashes ${CMAKE_CURRENT_LIST_DIR}/program/hash_test.cpp)
+  target_link_libraries(golden_hashes PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
+  target_compile_definitions(golden_hashes PRIVATE CARYATID_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    CARYATID_PROGRAM="$<TARGET_FILE:caryatid>")
+  add_test(NAME golden_hashes COMMAND golden_hashes)
+  return()
+endif()
 # Pictures by tolerance on the host's software GPU; see image.h for how to look and renew.
 add_library(caryatid_golden STATIC ${CMAKE_CURRENT_LIST_DIR}/image.cpp
   ${CMAKE_CURRENT_LIST_DIR}/sample_pack.cpp)
