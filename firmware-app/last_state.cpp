@@ -8,8 +8,7 @@
 namespace caryatid::app {
 namespace {
 
-constexpr const char* kFormat =
-    "caryatid-state 1\nstarts %llu\npresses %llu\nrunning %d\nlanguage \"%s\"\n";
+constexpr const char* kFormat = "caryatid-state 1\nstarts %llu\npresses %llu\nrunning %d\n";
 constexpr std::size_t kCrcLineBytes = 13;  // "crc " and eight digits and the newline.
 
 std::uint32_t crc_of(std::string_view text) {
@@ -25,8 +24,7 @@ void print_crc(std::string_view text, char (&line)[16]) {
 std::string_view format_state(const LastState& state, std::span<char> out) {
   const int body =
       std::snprintf(out.data(), out.size(), kFormat, static_cast<unsigned long long>(state.starts),
-                    static_cast<unsigned long long>(state.presses), state.running ? 1 : 0,
-                    state.language.c_str());
+                    static_cast<unsigned long long>(state.presses), state.running ? 1 : 0);
   if (body < 0 || static_cast<std::size_t>(body) + kCrcLineBytes > out.size()) return {};
   const auto size = static_cast<std::size_t>(body);
   char line[16];
@@ -45,13 +43,10 @@ bool parse_state(std::string_view text, LastState* out) {
   std::memcpy(copy, body.data(), body.size());
   unsigned long long starts = 0, presses = 0;
   int running = 0;
-  char language[32] = {};
-  const int fields = std::sscanf(copy,
-                                 "caryatid-state 1 starts %llu presses %llu running %d "
-                                 "language \"%31[^\"]",
-                                 &starts, &presses, &running, language);
-  if (fields < 3) return false;
-  *out = {starts, presses, running != 0, FixedString<31>({language, std::strlen(language)})};
+  if (std::sscanf(copy, "caryatid-state 1 starts %llu presses %llu running %d", &starts, &presses,
+                  &running) != 3)
+    return false;
+  *out = {starts, presses, running != 0};
   return true;
 }
 

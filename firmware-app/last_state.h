@@ -5,15 +5,12 @@
 #include <span>
 #include <string_view>
 
-#include "core/base/fixed.h"
-
 namespace caryatid::app {
 
 struct LastState {
   std::uint64_t starts = 0;   // Of the program, this one not counted.
   std::uint64_t presses = 0;  // Since the board was set up.
   bool running = false;       // Written by a run that has not said goodbye.
-  FixedString<31> language;   // Of the programme; empty: its first.
 };
 
 inline constexpr std::size_t kLastStateBytes = 256;

@@ -66,6 +66,12 @@ Supply supply_of(std::uint32_t get_throttled) {
   return {bit(0), bit(1), bit(2), bit(3), bit(16)};
 }
 
+Heat heat_of(const Supply& supply) {
+  if (supply.throttled) return Heat::hot;
+  return supply.under_voltage || supply.clock_capped || supply.soft_limit ? Heat::warm
+                                                                          : Heat::normal;
+}
+
 Thermal::~Thermal() {
   for (const int zone : zones_) ::close(zone);
   if (throttled_ >= 0) ::close(throttled_);
@@ -96,7 +102,9 @@ Status Thermal::read(ThermalReading* out) {
   *out = {*hottest_mC, heat_, std::nullopt};
   if (throttled_ < 0) return {};
   const std::optional<std::int64_t> bits = read_number(throttled_, 16);
-  if (bits) out->supply = supply_of(static_cast<std::uint32_t>(*bits));
+  if (!bits) return {};
+  out->supply = supply_of(static_cast<std::uint32_t>(*bits));
+  out->heat = std::max(heat_, heat_of(*out->supply));
   return {};
 }
 

@@ -29,11 +29,14 @@ struct Supply {
   bool under_voltage_since_boot = false;
 };
 Supply supply_of(std::uint32_t get_throttled);
+// What the frame budget makes of it: a slowed clock is heat, whatever the sensor says, and a supply
+// that sags must be spared before the firmware slows the clock.
+Heat heat_of(const Supply& supply);
 
 struct ThermalReading {
   std::int32_t temperature_mC = 0;  // Of the hottest zone.
-  Heat heat = Heat::normal;
-  std::optional<Supply> supply;  // Nothing where the board does not tell.
+  Heat heat = Heat::normal;         // By temperature, and by what the supply does now.
+  std::optional<Supply> supply;     // Nothing where the board does not tell.
 };
 
 // No allocation after open(); reading costs a few system calls.

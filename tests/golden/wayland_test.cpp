@@ -107,7 +107,19 @@ TEST_F(OnWeston, TheWholeProgramRunsInIt) {
   const std::string command = std::string(CARYATID_PROGRAM) +
                               " --display window --duration 2 --pack " CARYATID_SOURCE_DIR
                               "/firmware-app/builtin_face.pack";
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string said;
+  char piece[512];
+  while (std::fgets(piece, sizeof piece, pipe) != nullptr) said += piece;
+  EXPECT_EQ(pclose(pipe), 0) << said;
+  // The built-in picture came first, and a renderer without a GPU is told.
+  const std::size_t picture = said.find("built-in face on the screen"),
+                    person = said.find("person on the screen");
+  EXPECT_LT(picture, person) << said;
+  EXPECT_NE(person, std::string::npos) << said;
+  ASSERT_NO_FATAL_FAILURE(open_window(64, 48));
+  EXPECT_EQ(said.find("drawn by the CPU") != std::string::npos, renderer_->caps().software) << said;
 }
 
 class OnToy : public WaylandStudio {

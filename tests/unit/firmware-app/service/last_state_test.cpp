@@ -8,7 +8,7 @@ namespace caryatid::app {
 namespace {
 
 std::string example() {
-  LastState state{41, 123456, true, FixedString<31>(std::string_view("el"))};
+  LastState state{41, 123456, true};
   char text[kLastStateBytes];
   return std::string(format_state(state, text));
 }
@@ -19,14 +19,6 @@ TEST(LastState, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.starts, 41u);
   EXPECT_EQ(back.presses, 123456u);
   EXPECT_TRUE(back.running);
-  EXPECT_STREQ(back.language.c_str(), "el");
-}
-
-TEST(LastState, HasNoLanguageAtFirst) {
-  char text[kLastStateBytes];
-  LastState back;
-  ASSERT_TRUE(parse_state(format_state({}, text), &back));
-  EXPECT_EQ(back.language.size(), 0u);
 }
 
 TEST(LastState, EveryCutAndEveryFlippedBitIsRefused) {
@@ -43,13 +35,11 @@ TEST(LastState, EveryCutAndEveryFlippedBitIsRefused) {
 }
 
 TEST(LastState, TheLongestFits) {
-  LastState state{~0ull, ~0ull, true,
-                  FixedString<31>(std::string_view("0123456789012345678901234567890"))};
+  LastState state{~0ull, ~0ull, true};
   char text[kLastStateBytes];
   LastState back;
   ASSERT_TRUE(parse_state(format_state(state, text), &back));
   EXPECT_EQ(back.starts, ~0ull);
-  EXPECT_EQ(back.language.size(), 31u);
 }
 
 }  // namespace

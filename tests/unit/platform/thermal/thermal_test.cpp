@@ -80,6 +80,23 @@ TEST_F(ThermalTest, TheSupplyOfARaspberryPi) {
   EXPECT_TRUE(reading_.supply->under_voltage_since_boot);
 }
 
+TEST_F(ThermalTest, ASlowedClockIsHeatWhateverTheSensorSays) {
+  zone(0, "50000\n");
+  write("devices/platform/soc/soc:firmware/get_throttled", "50004\n");
+  ASSERT_TRUE(thermal_.open(root_.c_str()).ok());
+  ASSERT_TRUE(thermal_.read(&reading_).ok());
+  EXPECT_EQ(reading_.heat, Heat::hot);
+  write("devices/platform/soc/soc:firmware/get_throttled", "50001\n");  // The supply sags.
+  ASSERT_TRUE(thermal_.read(&reading_).ok());
+  EXPECT_EQ(reading_.heat, Heat::warm);
+  write("devices/platform/soc/soc:firmware/get_throttled", "50000\n");  // It did, since boot.
+  ASSERT_TRUE(thermal_.read(&reading_).ok());
+  EXPECT_EQ(reading_.heat, Heat::normal);
+  zone(0, "90000\n");
+  ASSERT_TRUE(thermal_.read(&reading_).ok());
+  EXPECT_EQ(reading_.heat, Heat::critical);
+}
+
 TEST(HeatStep, RisesAtOnceAndFallsBehindTheHysteresis) {
   EXPECT_EQ(heat_step(64'999, Heat::normal), Heat::normal);
   EXPECT_EQ(heat_step(65'000, Heat::normal), Heat::warm);
