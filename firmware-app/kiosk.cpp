@@ -137,12 +137,16 @@ bool Kiosk::open_renderer() {
 bool Kiosk::reopen_screen() {
   constexpr int kOften = 3;
   platform::log(Event::screen_lost, "the screen or the GPU was lost; opening it again");
-  renderer_.reset();  // Its objects live in the display's context.
-  display_.reset();
+  close_screen();
   if (++reopened_ > kOften || !open_display() || !open_renderer()) return false;
   for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
     if (texture_whole_[t]) (void)renderer_->upload_texture(static_cast<std::uint16_t>(t), true);
   return true;
+}
+
+void Kiosk::close_screen() {
+  renderer_.reset();  // Its objects live in the display's context.
+  display_.reset();
 }
 
 bool Kiosk::open_outputs() {

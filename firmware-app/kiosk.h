@@ -57,6 +57,8 @@ class Kiosk {
   // Runs until the duration ends, the window closes or request_stop(). False on a lost display.
   bool run();
   const RunReport& report() const { return report_; }
+  // The screen as it was found. The last call.
+  void close_screen();
 
   // --check: configuration and pack alone. True when both are sound.
   static bool check(const Options& options);
@@ -147,7 +149,7 @@ class Kiosk {
   platform::Thermal thermal_;
   platform::ThermalReading heat_;
   std::int64_t next_heat_us_ = 0;
-  bool heat_known_ = false, pack_refused_ = false;
+  bool heat_known_ = false, pack_refused_ = false, config_refused_ = false;
   bool told_ready_ = false;
   std::unique_ptr<lod::BudgetController> budget_;
   std::unique_ptr<lod::VirtualBoard> board_;

@@ -48,6 +48,7 @@ bool Kiosk::read_config() {
                       "%s: the configuration can't be kept; make room", options_.state.c_str());
       return read_script();
     }
+    config_refused_ = true;
     const std::string kept = last.config();
     const bool stands_in = !kept.empty() && use_config(kept);
     platform::log(platform::Event::config_refused, "%s: not used; %s stands in", wanted.c_str(),

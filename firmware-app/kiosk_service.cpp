@@ -83,6 +83,7 @@ KioskStatus Kiosk::status() const {
   s.under_voltage = heat_.supply && heat_.supply->under_voltage;
   s.throttled = heat_.supply && heat_.supply->throttled;
   s.builtin_face = pack_refused_;
+  s.config_refused = config_refused_;
   s.heartbeat_late = notifier_.withheld(platform::monotonic_us());
   s.arena_bytes = report_.arena_bytes;
   s.allocations_since_seal = allocations_since_seal();

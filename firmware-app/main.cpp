@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
   if (!kiosk->start() || !kiosk->run()) return 1;
   close_line(options, kiosk->report());
   std::fflush(stdout);
-  // The screen is given back first; a driver that hangs behind it must not keep the program.
+  kiosk->close_screen();
+  // A sound or USB driver that hangs must not keep the program.
   std::signal(SIGALRM, [](int) { _exit(0); });
   alarm(1);
   kiosk.reset();

@@ -54,9 +54,11 @@ std::string_view format_json(const KioskStatus& s, std::span<char> out) {
     t.add("\"temperature_celsius\":null,");
   t.add("\"rejected_edges\":%llu,\"button_lost\":%s,", whole(s.rejected_edges),
         boolean(s.button_lost));
-  t.add("\"under_voltage\":%s,\"throttled\":%s,\"builtin_face\":%s,\"heartbeat_late\":%s,",
-        boolean(s.under_voltage), boolean(s.throttled), boolean(s.builtin_face),
-        boolean(s.heartbeat_late));
+  t.add(
+      "\"under_voltage\":%s,\"throttled\":%s,\"builtin_face\":%s,\"config_refused\":%s,\"heartbeat_"
+      "late\":%s,",
+      boolean(s.under_voltage), boolean(s.throttled), boolean(s.builtin_face),
+      boolean(s.config_refused), boolean(s.heartbeat_late));
   t.add("\"resident_bytes\":%llu,\"arena_bytes\":%llu,\"allocations_since_seal\":%llu}",
         whole(s.resident_bytes), whole(s.arena_bytes), whole(s.allocations_since_seal));
   return t.view();
@@ -87,6 +89,7 @@ std::string_view format_prometheus(const KioskStatus& s, std::span<char> out) {
   gauge("under_voltage", s.under_voltage ? 1.0 : 0.0);
   gauge("throttled", s.throttled ? 1.0 : 0.0);
   gauge("builtin_face", s.builtin_face ? 1.0 : 0.0);
+  gauge("config_refused", s.config_refused ? 1.0 : 0.0);
   gauge("heartbeat_late", s.heartbeat_late ? 1.0 : 0.0);
   gauge("resident_bytes", static_cast<double>(s.resident_bytes));
   gauge("arena_bytes", static_cast<double>(s.arena_bytes));

@@ -26,6 +26,7 @@ struct KioskStatus {
   double temperature_celsius = 0.0;
   bool under_voltage = false, throttled = false;
   bool builtin_face = false;    // The pack can't be used and the built-in face stands in.
+  bool config_refused = false;  // kiosk.toml can't be used and an older or the built-in one does.
   bool heartbeat_late = false;  // Screen, input or sound stand still.
   std::uint64_t resident_bytes = 0, arena_bytes = 0, allocations_since_seal = 0;
 };

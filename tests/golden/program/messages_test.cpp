@@ -60,13 +60,15 @@ TEST(Messages, AWrongConfigurationIsReplacedByTheOneThatWorkedLast) {
   const std::string good = "[[button]]\nname = \"a\"\nfeel = \"joy\"\n";
   const auto config = write_file(folder / "kiosk.toml", good);
   const std::string command = "--display none --audio null --duration 0.1 --config " +
-                              config.string() + " --state " + state.string();
+                              config.string() + " --state " + state.string() + " --status " +
+                              (state / "status").string();
   EXPECT_EQ(run_program(command).exit_code, 0);
   write_file(config, "[[button]\n");
   const Outcome run = run_program(command);
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_NE(run.output.find("kiosk.toml:1: "), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("worked last stands in"), std::string::npos) << run.output;
+  EXPECT_NE(content(state / "status").find("\"config_refused\":true"), std::string::npos);
   EXPECT_EQ(content(state / "last_good" / "kiosk.toml"), good);
 }
 

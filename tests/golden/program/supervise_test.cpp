@@ -122,5 +122,34 @@ TEST_F(Supervised, SoundThatStandsStillNoHeartbeat) {
   ::close(reader);
 }
 
+// Under systemd every line goes to the journal with its event's name, in its own protocol. The
+// journal is a socket of this test, put in the place of systemd's in a name space of its own.
+TEST_F(Supervised, LinesGoToTheJournalByTheirNames) {
+  if (std::system("unshare -Urm true 2>/dev/null") != 0)
+    GTEST_SKIP() << "this system lets no user mount";
+  const auto journal = folder_ / "journal";
+  std::filesystem::create_directories(journal);
+  const int lines = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const sockaddr_un address = address_of(journal / "socket");
+  ASSERT_EQ(::bind(lines, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  write_file(folder_ / "kiosk.toml", "[[button]]\nname = 'a'\ngpio = 'NOWHERE'\nfeel = 'bliss'\n");
+  const std::string command =
+      "JOURNAL_STREAM=1:1 unshare -Urm sh -c 'mount --bind " + journal.string() +
+      " /mnt && mount -t tmpfs run /run && mkdir -p /run/systemd/journal && "
+      "mount --bind /mnt /run/systemd/journal && exec " +
+      CARYATID_PROGRAM + " --display none --audio null --duration 0.2 --pack none.pack --config " +
+      (folder_ / "kiosk.toml").string() + "' >/dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::string said;
+  char line[2048];
+  for (ssize_t n; (n = ::recv(lines, line, sizeof line, MSG_DONTWAIT)) > 0;)
+    said.append(line, static_cast<std::size_t>(n));
+  ::close(lines);
+  for (const char* event : {"pack-refused", "button-lost", "text-refused"})
+    EXPECT_THAT(said, HasSubstr("CARYATID_EVENT=" + std::string(event) + "\n"));
+  EXPECT_THAT(said, HasSubstr("MESSAGE=none.pack: "));
+  EXPECT_THAT(said, HasSubstr("PRIORITY=3\nSYSLOG_IDENTIFIER=caryatid\n"));
+}
+
 }  // namespace
 }  // namespace caryatid::golden

@@ -61,7 +61,7 @@ TEST(Status, PrometheusTextHasATypeAndAValueForEachName) {
     EXPECT_EQ(name.ends_with("_total"), kind == "counter") << name;
     EXPECT_GE(value, 0.0);
   }
-  EXPECT_EQ(metrics, 19);
+  EXPECT_EQ(metrics, 20);
 }
 
 TEST(Status, NothingIsWrittenInPieces) {
