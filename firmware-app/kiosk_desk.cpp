@@ -148,7 +148,9 @@ scene::Box Kiosk::head_box() const {
 }
 
 void Kiosk::show_overlay(const Tick& tick) {
-  if (player_.active()) return;  // A stream has the screen to itself.
+  list_.overlay = {};
+  // A stream has the screen to itself, and so has the dark.
+  if (player_.active() || !care_.screen_on()) return;
   agent::SignboardInput seen = screen();
   seen.head = head_box();
   const SpeechFrame& spoken = speaker_.frame();

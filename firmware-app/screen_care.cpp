@@ -27,12 +27,12 @@ void ScreenCare::step(float dt_s, bool busy, bool pressed, bool open) {
   awake_s_ = pressed ? kAwake_s : std::max(awake_s_ - dt_s, 0.0f);
   alone_s_ = busy || pressed ? 0.0f : alone_s_ + dt_s;
   const bool tired = config_.off_after_s > 0.0f && alone_s_ >= config_.off_after_s;
-  on_ = !tired && (open || awake_s_ > 0.0f);
+  const bool dark = tired || (!open && awake_s_ <= 0.0f);
   const bool dim = config_.dim_after_s > 0.0f && alone_s_ >= config_.dim_after_s;
-  if (dim)
-    light_ = std::max(light_ - dt_s / kFade_s, std::clamp(config_.dim_to, 0.0f, 1.0f));
-  else
-    light_ = 1.0f;
+  const float aim = dark ? 0.0f : dim ? std::clamp(config_.dim_to, 0.0f, 1.0f) : 1.0f;
+  light_ = std::max(light_ - dt_s / kFade_s, aim);
+  if (!dark && !dim) light_ = 1.0f;
+  on_ = !dark || light_ > 0.0f;
   path_s_ += static_cast<double>(dt_s);
   shift_ = 2.0f * config_.wander * Vec2{wave(path_s_, kAcross_s), wave(path_s_, kUp_s)};
 }

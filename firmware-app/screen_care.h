@@ -22,6 +22,7 @@ class ScreenCare {
   // wakes even a screen that is off outside opening hours. open: the schedule wants the screen on.
   void step(float dt_s, bool busy, bool pressed, bool open = true);
 
+  // False once the light has gone out; a window, which can't be switched off, is black then.
   bool screen_on() const { return on_; }
   // Share of the full light; comes at once and goes within seconds.
   float light() const { return light_; }

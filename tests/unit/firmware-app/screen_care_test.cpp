@@ -44,12 +44,15 @@ TEST(ScreenCare, SomebodyThereKeepsItLit) {
 TEST(ScreenCare, ClosedItIsDarkButAPressBuysAMinute) {
   ScreenCare care;
   live(care, 1.0f, true, false);
+  EXPECT_TRUE(care.screen_on() && care.light() < 0.8f) << "it fades";
+  live(care, 3.0f, true, false);
   EXPECT_FALSE(care.screen_on());
+  EXPECT_EQ(care.light(), 0.0f);
   care.step(0.1f, true, true, false);
   EXPECT_TRUE(care.screen_on());
   live(care, 59.0f, true, false);
   EXPECT_TRUE(care.screen_on());
-  live(care, 2.0f, true, false);
+  live(care, 5.0f, true, false);
   EXPECT_FALSE(care.screen_on());
 }
 
