@@ -266,7 +266,7 @@ bool Kiosk::run() {
   if (!frames_out_.finish())
     platform::log(Event::file_refused, "%s: the contact sheet can't be written",
                   options_.frames_out.c_str());
-  metrics_.close();
+  report_.metrics_lost = !metrics_.close() || report_.metrics_lost;
   return ok;
 }
 
@@ -572,9 +572,10 @@ void Kiosk::measure(const Tick& tick) {
   m.allocations_since_seal = allocations_since_seal();
   m.arena_bytes_used = memory_.arena().used_bytes();
   report_.late_frames += m.late ? 1 : 0;
-  if (!metrics_.write(m, person_.view()))
-    platform::log(Event::file_refused, "%s: can't be written any more; make room",
-                  options_.metrics.c_str());
+  if (metrics_.write(m, person_.view())) return;
+  report_.metrics_lost = true;
+  platform::log(Event::file_refused, "%s: can't be written any more; make room",
+                options_.metrics.c_str());
 }
 
 // Where the arena goes, a line a section.

@@ -43,6 +43,7 @@ struct RunReport {
   double seconds = 0.0;
   std::uint64_t allocations = 0;
   std::size_t arena_bytes = 0;
+  bool metrics_lost = false;         // --metrics could not be written to its end.
   std::uint64_t limited_frames = 0;  // --joint-limits: with joints beyond their range,
   body::LimitReport worst_limit;     // and the farthest beyond of all.
 };

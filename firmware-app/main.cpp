@@ -22,7 +22,9 @@ void close_line(const caryatid::app::Options& options, const caryatid::app::RunR
       static_cast<unsigned long long>(r.allocations),
       static_cast<double>(r.arena_bytes) / 1048576.0);
   if (!options.frames_out.empty()) std::printf("; pictures in %s", options.frames_out.c_str());
-  if (!options.metrics.empty()) std::printf("; metrics in %s", options.metrics.c_str());
+  if (!options.metrics.empty())
+    std::printf("; metrics %s %s", r.metrics_lost ? "are not whole in" : "in",
+                options.metrics.c_str());
   std::putchar('\n');
   if (r.limited_frames > 0)
     std::printf(

@@ -31,9 +31,10 @@ bool MetricsFile::open(const char* path) {
   return std::setvbuf(file_, buffer_, _IOFBF, sizeof buffer_) == 0;
 }
 
-void MetricsFile::close() {
-  if (file_ != nullptr) std::fclose(file_);
+bool MetricsFile::close() {
+  const bool whole = file_ == nullptr || std::fclose(file_) == 0;
   file_ = nullptr;
+  return whole;
 }
 
 bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
@@ -65,7 +66,7 @@ bool MetricsFile::write(const FrameMetrics& m, const pack::View& pack) {
     flush_s_ = m.time_s + 1.0;
   }
   if (std::ferror(file_) == 0) return true;
-  close();
+  (void)close();
   return false;
 }
 

@@ -44,11 +44,12 @@ struct FrameMetrics {
 // Opened before memory is sealed; write() formats into a buffer of its own.
 class MetricsFile {
  public:
-  ~MetricsFile() { close(); }
+  ~MetricsFile() { (void)close(); }
   bool open(const char* path);
   // False once, when the disk refuses; then writes nothing more.
   bool write(const FrameMetrics& m, const pack::View& pack);
-  void close();
+  // False when what was left could not be written.
+  bool close();
 
  private:
   std::FILE* file_ = nullptr;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 namespace caryatid::app {
 namespace {
@@ -54,7 +55,7 @@ as a service
 
 to try and to test
   --script FILE          recorded button events, one a line: SECONDS NAME down|up
-  --duration S           stop after S seconds
+  --duration S           stop after S seconds (default 0: never)
   --frames-out DIR       write PNG pictures and a contact sheet
   --frames-every N       of each N-th frame (default 1)
   --play FILE            play a .fap, .bap or .fba (also a pipe, or -) in place of the programme
@@ -354,6 +355,21 @@ bool take(int id, const char* text, Options* o) {
   }
 }
 
+// Other programs live by the real clock; a run of a virtual one is over before they look.
+bool fits_the_clock(const Options& o) {
+  const std::pair<const char*, const std::string*> real[] = {{"control", &o.control},
+                                                             {"status", &o.status},
+                                                             {"prometheus", &o.prometheus},
+                                                             {"state", &o.state}};
+  for (const auto& [name, path] : real)
+    if (o.virtual_clock && !path->empty()) {
+      std::fprintf(stderr, "caryatid: --%s does nothing under --virtual-clock; leave one out\n",
+                   name);
+      return false;
+    }
+  return true;
+}
+
 }  // namespace
 
 Parsed parse_options(int argc, char** argv, Options* out) {
@@ -377,6 +393,7 @@ Parsed parse_options(int argc, char** argv, Options* out) {
     }
     if (!take(id, optarg, out)) return Parsed::wrong;
   }
+  if (!fits_the_clock(*out)) return Parsed::wrong;
   const char* folder = std::getenv("STATE_DIRECTORY");  // systemd's StateDirectory=.
   if (out->state.empty() && folder != nullptr && !out->virtual_clock) out->state = folder;
   if (optind < argc) {

@@ -1,6 +1,7 @@
 #include "firmware-app/service.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -23,6 +24,15 @@ std::string read_small(const std::string& path) {
   return text;
 }
 
+// 0, or the errno that the first write of `path` would meet: told at the start, not after 5 s.
+int why_unwritable(const std::string& path) {
+  struct stat there = {};
+  if (::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) return EISDIR;
+  const std::size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  return ::access(folder.c_str(), W_OK | X_OK) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 bool Service::open(const Options& options, std::string* out_error) {
@@ -30,6 +40,9 @@ bool Service::open(const Options& options, std::string* out_error) {
   prometheus_path_ = options.prometheus;
   const auto add = [this](const std::string& path, bool durable, std::size_t* file) {
     if (path.empty()) return true;
+    if (const int error = why_unwritable(path))
+      platform::log(platform::Event::file_refused, "%s: %s; the kiosk goes on without it",
+                    path.c_str(), std::strerror(error));
     const Result<std::size_t> added = writer_.add(path.c_str(), durable);
     *file = added.value;
     return added.ok();

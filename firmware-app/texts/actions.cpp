@@ -15,6 +15,20 @@ constexpr std::array kDays = {"monday", "tuesday",  "wednesday", "thursday",
 constexpr std::array kRootKeys = {"languages", "start",   "volume",  "sleep",       "hours",
                                   "night",     "attract", "picture", "variables",   "page",
                                   "button",    "hid",     "screen",  "always_shown"};
+// Of these keys the kind is checked here; the others' readers do it.
+constexpr struct {
+  const char* key;
+  toml::node_type kind;
+  const char* wanted;
+} kRootKinds[] = {{"sleep", toml::node_type::boolean, "true or false"},
+                  {"always_shown", toml::node_type::boolean, "true or false"},
+                  {"languages", toml::node_type::array, "a list, as [\"en\", \"el\"]"},
+                  {"hours", toml::node_type::table, "a table; write [hours]"},
+                  {"night", toml::node_type::table, "a table; write [night]"},
+                  {"attract", toml::node_type::table, "a table; write [attract]"},
+                  {"variables", toml::node_type::table, "a table; write [variables]"},
+                  {"picture", toml::node_type::array, "a list; write [[picture]]"},
+                  {"page", toml::node_type::array, "a list; write [[page]]"}};
 constexpr std::array kPageKeys = {"name",    "title", "body", "say",     "show",
                                   "gesture", "feel",  "on",   "language"};
 
@@ -80,6 +94,10 @@ int ProgrammeReader::find(const std::vector<std::string>& names, const toml::nod
   const std::string name = node.is_string() ? node.as_string()->get() : std::string();
   const auto found = std::find(names.begin(), names.end(), name);
   if (!name.empty() && found != names.end()) return static_cast<int>(found - names.begin());
+  if (!node.is_string()) {
+    wrong(node, std::string(kind) + ": its name is wanted, in quotation marks");
+    return -1;
+  }
   std::string known;
   for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
   wrong(node, "there is no " + std::string(kind) + " '" + name + "'" +
@@ -289,8 +307,38 @@ void ProgrammeReader::read_schedule(const toml::table& root) {
     builder_.attract.every_s = 0;
 }
 
+void ProgrammeReader::check_kinds(const toml::table& root) {
+  for (const auto& each : kRootKinds)
+    if (const toml::node* node = root.get(each.key); node != nullptr && node->type() != each.kind)
+      wrong(*node, std::string(each.key) + " is " + each.wanted);
+  const toml::array* languages = root["languages"].as_array();
+  if (languages == nullptr) return;
+  if (languages->empty()) wrong(*languages, "languages is empty; name at least one, as \"en\"");
+  std::vector<std::string> before;
+  for (const toml::node& node : *languages) {
+    const std::string code = node.value_or(std::string());
+    if (code.empty()) wrong(node, "a language is a code in quotation marks, as \"en\"");
+    if (std::find(before.begin(), before.end(), code) != before.end())
+      wrong(node, "language '" + code + "' is there twice; take one away");
+    before.push_back(code);
+  }
+}
+
+void ProgrammeReader::check_twice(const toml::table& root, const char* key) {
+  const std::vector<std::string> names = names_of(root, key);
+  const toml::array* array = root[key].as_array();
+  for (std::size_t i = 1; i < names.size(); ++i)
+    if (const auto here = names.begin() + static_cast<std::ptrdiff_t>(i);
+        !names[i].empty() && std::find(names.begin(), here, names[i]) != here)
+      wrong((*array)[i],
+            std::string(key) + " '" + names[i] + "' is there twice; give it another name");
+}
+
 void ProgrammeReader::read_names(const toml::table& root) {
   known_keys(root, kRootKeys.begin(), kRootKeys.end());
+  check_kinds(root);
+  check_twice(root, "page");
+  check_twice(root, "picture");
   button_names_ = names_of(root, "button");
   page_names_ = names_of(root, "page");
   picture_names_ = names_of(root, "picture");

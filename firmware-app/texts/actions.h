@@ -37,6 +37,8 @@ class ProgrammeReader {
   void wrong(const toml::node& node, const std::string& what);
   bool known_keys(const toml::table& table, const char* const* first, const char* const* last);
   std::uint16_t text(const std::string& key, const toml::node* where, bool optional);
+  void check_kinds(const toml::table& root);
+  void check_twice(const toml::table& root, const char* key);
   void read_names(const toml::table& root);
   void read_button(const toml::table& table);
   void read_page(const toml::table& table, std::size_t index);

@@ -80,20 +80,21 @@ Status Control::open(const char* path, ErrorLine& out_error) {
 }
 
 void Control::accept_new() {
-  for (;;) {
+  for (std::size_t i = 0; i < kMaxClients; ++i) {  // No flood of them takes a frame.
     const int s = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (s < 0) return;
-    const auto free = std::find_if(clients_.begin(), clients_.end(),
-                                   [](const Client& c) { return c.descriptor < 0; });
-    if (free == clients_.end()) {
-      constexpr char kFull[] = "error: too many clients; close one\n";
-      (void)!::send(s, kFull, sizeof kFull - 1, MSG_NOSIGNAL);
-      ::close(s);
-      continue;
+    Client* place = &clients_[0];
+    for (Client& c : clients_)
+      if (c.descriptor < 0 || (place->descriptor >= 0 && c.heard < place->heard)) place = &c;
+    if (place->descriptor >= 0) {
+      constexpr char kAway[] = "error: silent the longest while another wants to speak; goodbye\n";
+      (void)!::send(place->descriptor, kAway, sizeof kAway - 1, MSG_NOSIGNAL);
+      ::close(place->descriptor);
     }
-    free->descriptor = s;
-    free->size = 0;
-    free->skipping = false;
+    place->descriptor = s;
+    place->size = 0;
+    place->skipping = false;
+    place->heard = polls_;
   }
 }
 
@@ -142,6 +143,7 @@ bool Control::read(Client& client, void* receiver, Handler handle, int* lines_le
     if (n < 0) return errno == EAGAIN || errno == EINTR;
     if (n == 0) return false;
     client.size += static_cast<std::size_t>(n);
+    client.heard = polls_;
     if (!take_lines(client, receiver, handle, lines_left)) return false;
   }
   return true;
@@ -149,6 +151,7 @@ bool Control::read(Client& client, void* receiver, Handler handle, int* lines_le
 
 void Control::poll(void* receiver, Handler handle) {
   if (listener_ < 0) return;
+  ++polls_;
   accept_new();
   int lines_left = kMaxLinesPerPoll;
   for (Client& c : clients_) {

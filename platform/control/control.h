@@ -4,6 +4,7 @@
 // too fast, too long or in pieces costs that client and nobody else.
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/base/fixed.h"
@@ -40,7 +41,8 @@ class Control {
   struct Client {
     int descriptor = -1;
     std::size_t size = 0;
-    bool skipping = false;  // Inside a line that is too long.
+    bool skipping = false;    // Inside a line that is too long.
+    std::uint64_t heard = 0;  // The poll in which something came last.
     std::array<char, kMaxLineBytes> line{};
   };
   void accept_new();
@@ -49,6 +51,7 @@ class Control {
   static bool answer(Client& client, const ControlReply& reply);
 
   int listener_ = -1;
+  std::uint64_t polls_ = 0;
   FixedString<107> path_;  // As long as sockaddr_un::sun_path.
   std::array<Client, kMaxClients> clients_{};
 };

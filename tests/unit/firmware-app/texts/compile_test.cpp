@@ -147,10 +147,28 @@ TEST(Compile, FaultsOfTheConfigurationNameTheirLine) {
       {"[[page]]\nname = 'p'\n[page.on]\n'9' = { go = 'p' }\n",
        "kiosk.toml:5: there is no button '9'"},
       {"[[page]]\nname = 'p'\nsay = 'nothing'\n", "no language has the text 'nothing'"},
+      {"sleep = 7\n", "kiosk.toml:2: sleep is true or false"},
+      {"page = 'p'\n", "kiosk.toml:2: page is a list; write [[page]]"},
+      {"start = 5\n", "kiosk.toml:2: page: its name is wanted, in quotation marks"},
+      {"[[page]]\nname = 'p'\n[[page]]\nname = 'p'\n", "kiosk.toml:4: page 'p' is there twice"},
       {"[[picture]]\nname = 'm'\n", "kiosk.toml:2: a picture needs a name and a file"},
   };
   for (const auto& c : kCases) {
     DeskOf desk({{"kiosk.toml", config(c.text)}, {"texts/en.toml", ""}, {"texts/el.toml", ""}});
+    expect_message(desk, c.words);
+  }
+}
+
+TEST(Compile, LanguagesAreCodesAndEachOnce) {
+  const struct {
+    const char* text;
+    const char* words;
+  } kCases[] = {{"languages = []\n", "kiosk.toml:1: languages is empty"},
+                {"languages = 'en'\n", "kiosk.toml:1: languages is a list"},
+                {"languages = ['en', 5]\n", "kiosk.toml:1: a language is a code"},
+                {"languages = ['en', 'en']\n", "kiosk.toml:1: language 'en' is there twice"}};
+  for (const auto& c : kCases) {
+    DeskOf desk({{"kiosk.toml", c.text}, {"texts/en.toml", ""}});
     expect_message(desk, c.words);
   }
 }
@@ -164,7 +182,8 @@ TEST(Compile, ABrokenConfigurationGivesItsLineAndNoProgramme) {
 TEST(Compile, TooMuchTextIsRefused) {
   std::string texts = "[p]\n", pages;
   for (int i = 0; i < 64; ++i) {
-    pages += "[[page]]\nname = 'p'\nsay = 'p.t" + std::to_string(i) + "'\n";
+    pages +=
+        "[[page]]\nname = 'p" + std::to_string(i) + "'\nsay = 'p.t" + std::to_string(i) + "'\n";
     texts += "t" + std::to_string(i) + " = '" + std::string(4000, 'a') + "'\n";
   }
   DeskOf desk({{"kiosk.toml", config(pages)}, {"texts/en.toml", texts}, {"texts/el.toml", ""}});

@@ -95,22 +95,25 @@ TEST_F(ControlTest, AFloodIsSpreadOverFrames) {
   EXPECT_EQ(seen_.size(), 40u);
 }
 
-TEST_F(ControlTest, AClientBeyondTheLastIsToldSo) {
+TEST_F(ControlTest, TheOneSilentTheLongestMakesRoom) {
   std::vector<std::unique_ptr<Client>> clients;
   for (std::size_t i = 0; i < Control::kMaxClients; ++i) {
     clients.push_back(std::make_unique<Client>(path_));
     poll();
   }
+  clients[0]->send("status\n");
+  poll();
+  EXPECT_EQ(clients[0]->receive(), "ok\n");
   Client late(path_);
-  poll();
-  EXPECT_EQ(late.receive(), "error: too many clients; close one\n");
-  clients.pop_back();
-  poll();
-  Client next(path_);
-  next.send("status\n");
+  late.send("status\n");
   poll();
   poll();
-  EXPECT_EQ(next.receive(), "ok\n");
+  EXPECT_EQ(late.receive(), "ok\n");
+  EXPECT_EQ(clients[1]->receive(),
+            "error: silent the longest while another wants to speak; goodbye\n");
+  clients[0]->send("status\n");
+  poll();
+  EXPECT_EQ(clients[0]->receive(), "ok\n");
 }
 
 TEST_F(ControlTest, ALivingSocketAndOtherFilesAreLeftAlone) {
