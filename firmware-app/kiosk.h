@@ -123,6 +123,7 @@ class Kiosk {
   KioskStatus status() const;
   bool visible() const { return !display_ || display_->visible(); }
   void print_memory();
+  bool check_pack(std::string* out_error);
   void fix_levels();
   lod::SceneNeeds needs(bool busy);
 

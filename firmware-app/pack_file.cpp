@@ -15,8 +15,9 @@ bool PackFile::open(const std::string& path, std::string* out_error) {
   name_ = path;
   file_ = std::fopen(path.c_str(), "rb");
   if (file_ == nullptr) {
-    *out_error =
-        path + ": " + std::strerror(errno) + "; bake one with caryatid-tool bake character";
+    *out_error = path + ": " + std::strerror(errno) +
+                 (errno == ENOENT ? "; bake one with caryatid-tool bake character"
+                                  : "; let the kiosk's user read it");
     return false;
   }
   std::setvbuf(file_, nullptr, _IONBF, 0);  // next_piece() reads in large pieces itself.
