@@ -66,33 +66,43 @@ std::string_view format_json(const KioskStatus& s, std::span<char> out) {
 
 std::string_view format_prometheus(const KioskStatus& s, std::span<char> out) {
   Text t(out);
-  const auto metric = [&t](const char* name, const char* kind, double value) {
-    t.add("# TYPE caryatid_%s %s\ncaryatid_%s %.10g\n", name, kind, name, value);
+  const auto metric = [&t](const char* name, const char* kind, const char* help, double value) {
+    t.add("# HELP caryatid_%s %s\n# TYPE caryatid_%s %s\ncaryatid_%s %.10g\n", name, help, name,
+          kind, name, value);
   };
-  const auto count = [&metric](const char* name, std::uint64_t value) {
-    metric(name, "counter", static_cast<double>(value));
+  const auto count = [&metric](const char* name, const char* help, std::uint64_t value) {
+    metric(name, "counter", help, static_cast<double>(value));
   };
-  const auto gauge = [&metric](const char* name, double value) { metric(name, "gauge", value); };
-  gauge("uptime_seconds", s.uptime_s);
-  count("starts_total", s.starts);
-  count("frames_total", s.frames);
-  count("late_frames_total", s.late_frames);
-  count("presses_total", s.presses);
-  count("rejected_edges_total", s.rejected_edges);
-  count("allocations_after_seal_total", s.allocations_since_seal);
-  if (s.start.picture_s >= 0.0) gauge("start_picture_seconds", s.start.picture_s);
-  if (s.start.person_s >= 0.0) gauge("start_person_seconds", s.start.person_s);
-  gauge("triangles", s.triangles);
-  gauge("frame_cpu_seconds", s.cpu_ms * 1e-3);
-  if (s.has_temperature) gauge("temperature_celsius", s.temperature_celsius);
-  gauge("button_lost", s.button_lost ? 1.0 : 0.0);
-  gauge("under_voltage", s.under_voltage ? 1.0 : 0.0);
-  gauge("throttled", s.throttled ? 1.0 : 0.0);
-  gauge("builtin_face", s.builtin_face ? 1.0 : 0.0);
-  gauge("config_refused", s.config_refused ? 1.0 : 0.0);
-  gauge("heartbeat_late", s.heartbeat_late ? 1.0 : 0.0);
-  gauge("resident_bytes", static_cast<double>(s.resident_bytes));
-  gauge("arena_bytes", static_cast<double>(s.arena_bytes));
+  const auto gauge = [&metric](const char* name, const char* help, double value) {
+    metric(name, "gauge", help, value);
+  };
+  const auto yes = [&gauge](const char* name, const char* help, bool value) {
+    gauge(name, help, value ? 1.0 : 0.0);
+  };
+  gauge("uptime_seconds", "Since the first frame.", s.uptime_s);
+  count("starts_total", "Starts of the program on this board.", s.starts);
+  count("frames_total", "Frames drawn.", s.frames);
+  count("late_frames_total", "Frames that missed their refresh.", s.late_frames);
+  count("presses_total", "Presses of buttons that mean something.", s.presses);
+  count("rejected_edges_total", "Edges of buttons that were bounce.", s.rejected_edges);
+  count("allocations_after_seal_total", "Heap calls of the frame loop; 0.",
+        s.allocations_since_seal);
+  if (s.start.picture_s >= 0.0)
+    gauge("start_picture_seconds", "Process start to built-in picture.", s.start.picture_s);
+  if (s.start.person_s >= 0.0)
+    gauge("start_person_seconds", "Process start to the person.", s.start.person_s);
+  gauge("triangles", "Of the person, as drawn last.", s.triangles);
+  gauge("frame_cpu_seconds", "CPU time of the last frame.", s.cpu_ms * 1e-3);
+  if (s.has_temperature)
+    gauge("temperature_celsius", "Of the hottest zone.", s.temperature_celsius);
+  yes("button_lost", "A device of buttons is away.", s.button_lost);
+  yes("under_voltage", "The supply sags now.", s.under_voltage);
+  yes("throttled", "The firmware slows the clock now.", s.throttled);
+  yes("builtin_face", "The pack can't be used; out of order.", s.builtin_face);
+  yes("config_refused", "kiosk.toml can't be used; another one is.", s.config_refused);
+  yes("heartbeat_late", "Screen, input or sound stand still.", s.heartbeat_late);
+  gauge("resident_bytes", "Memory of the process.", static_cast<double>(s.resident_bytes));
+  gauge("arena_bytes", "Memory of the agent.", static_cast<double>(s.arena_bytes));
   return t.view();
 }
 

@@ -32,7 +32,7 @@ struct KioskStatus {
 };
 
 // Both write at most out.size() bytes and give the part that was written; nothing when `out` is too
-// short (2 KiB always suffice). No allocation.
+// short (1 KiB always suffices for the JSON, 4 KiB for the other). No allocation.
 std::string_view format_json(const KioskStatus& status, std::span<char> out);
 std::string_view format_prometheus(const KioskStatus& status, std::span<char> out);
 

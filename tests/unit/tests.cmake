@@ -76,7 +76,8 @@ add_executable(unit_firmware_service ${service_tests} ${CMAKE_SOURCE_DIR}/firmwa
   ${CMAKE_SOURCE_DIR}/firmware-app/status.cpp ${CMAKE_SOURCE_DIR}/firmware-app/start_times.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/last_state.cpp
   ${CMAKE_SOURCE_DIR}/firmware-app/last_good.cpp)
-target_link_libraries(unit_firmware_service PRIVATE caryatid_agent caryatid_flags GTest::gtest_main)
+target_link_libraries(unit_firmware_service PRIVATE caryatid_agent caryatid_flags Threads::Threads
+  GTest::gtest_main)
 add_test(NAME unit_firmware_service COMMAND unit_firmware_service)
 add_executable(unit_firmware_stream_file
   ${CMAKE_CURRENT_LIST_DIR}/firmware-app/stream_file_test.cpp

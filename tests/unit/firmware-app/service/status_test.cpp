@@ -1,12 +1,13 @@
 #include "firmware-app/status.h"
 
 #include <gtest/gtest.h>
-
 #include <time.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+
+#include "platform/files/background_writer.h"
 
 namespace caryatid::app {
 namespace {
@@ -42,26 +43,45 @@ TEST(Status, JsonReadsBackAndHasNoNewline) {
 }
 
 TEST(Status, WithoutASensorThereIsNoTemperature) {
-  char text[2048];
+  char text[4096];
   EXPECT_TRUE(nlohmann::json::parse(format_json({}, text))["temperature_celsius"].is_null());
+  EXPECT_FALSE(format_prometheus({}, text).empty());
   EXPECT_EQ(format_prometheus({}, text).find("temperature"), std::string_view::npos);
 }
 
-// Text format 0.0.4: "# TYPE name kind" and then "name value", each name once.
+// Text format 0.0.4: "# HELP name text", "# TYPE name kind", "name value", each name once.
 TEST(Status, PrometheusTextHasATypeAndAValueForEachName) {
-  char text[2048];
+  char text[4096];
   std::istringstream lines{std::string(format_prometheus(busy(), text))};
   int metrics = 0;
-  for (std::string hash, type, name, kind, again; lines >> hash >> type >> name >> kind;
-       ++metrics) {
+  for (std::string help, hash, type, name, kind, again;
+       std::getline(lines, help) && lines >> hash >> type >> name >> kind; ++metrics) {
     double value = -1.0;
     ASSERT_TRUE(lines >> again >> value);
+    EXPECT_EQ(lines.get(), '\n');
+    EXPECT_TRUE(help.starts_with("# HELP " + name + " ") && help.ends_with(".")) << help;
     EXPECT_EQ(hash + type, "#TYPE");
     EXPECT_EQ(name, again);
     EXPECT_EQ(name.ends_with("_total"), kind == "counter") << name;
     EXPECT_GE(value, 0.0);
   }
   EXPECT_EQ(metrics, 20);
+}
+
+TEST(Status, TheLongestFitsWhereItMust) {
+  KioskStatus s = busy();
+  s.starts = s.frames = s.late_frames = s.presses = s.rejected_edges = s.resident_bytes =
+      s.arena_bytes = s.allocations_since_seal = ~0ull;
+  s.triangles = ~0u;
+  s.uptime_s = s.start.picture_s = s.start.person_s = s.cpu_ms = 1e9;
+  s.emotion = emotion::Emotion::surprise;
+  char text[4096];
+  const std::size_t json = format_json(s, text).size();
+  EXPECT_GT(json, 0u);
+  EXPECT_LT(json, 1023u) << "an answer of the control socket";
+  const std::size_t prometheus = format_prometheus(s, text).size();
+  EXPECT_GT(prometheus, 0u);
+  EXPECT_LE(prometheus, platform::BackgroundWriter::kMaxFileBytes);
 }
 
 TEST(Status, NothingIsWrittenInPieces) {
