@@ -96,6 +96,16 @@ if(ALSA_FOUND)
   target_link_libraries(unit_platform_audio PRIVATE caryatid_base caryatid_flags GTest::gtest_main
     Threads::Threads)
   add_test(NAME unit_platform_audio COMMAND unit_platform_audio)
+  # The real libasound with a card of ours that it loads as a plugin.
+  add_library(caryatid_clocked_pcm MODULE ${audio_tests}/clocked_pcm.c)
+  target_link_libraries(caryatid_clocked_pcm PRIVATE PkgConfig::ALSA)
+  add_executable(unit_platform_alsa ${audio_tests}/real_alsa_test.cpp)
+  target_compile_definitions(unit_platform_alsa PRIVATE
+    CARYATID_CLOCKED_PCM="$<TARGET_FILE:caryatid_clocked_pcm>")
+  target_link_libraries(unit_platform_alsa PRIVATE caryatid_audio caryatid_flags
+    GTest::gtest_main)
+  add_dependencies(unit_platform_alsa caryatid_clocked_pcm)
+  add_test(NAME unit_platform_alsa COMMAND unit_platform_alsa)
 endif()
 set(voice_tests ${CMAKE_CURRENT_LIST_DIR}/platform/voice)
 add_executable(fake-voice ${voice_tests}/fake_voice.cpp)

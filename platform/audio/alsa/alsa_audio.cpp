@@ -99,10 +99,12 @@ class AlsaAudio final : public Audio {
   }
   void run();
   int play_period();
+  void keep_pace();
   void be_away();
   void lose();
   std::size_t take(std::size_t frames);
   int put(std::size_t frames);
+  int recover(int error);
   void publish();
 
   std::string device_;
@@ -123,6 +125,8 @@ class AlsaAudio final : public Audio {
   bool dry_ = false;
   std::size_t period_ = 256;
   std::int64_t device_frames_ = 0;
+  int recoveries_ = 0;                                // Since a period went into the device whole.
+  std::int64_t pace_since_us_ = 0, pace_frames_ = 0;  // Of keep_pace().
   std::array<Piece, 32> pieces_{};
   std::size_t next_piece_ = 0;
   std::array<std::int16_t, kMostPeriod> mono_{};
@@ -223,6 +227,14 @@ std::size_t AlsaAudio::take(std::size_t frames) {
   return got;
 }
 
+// 0, or ALSA's error when the device is lost.
+int AlsaAudio::recover(int error) {
+  constexpr int kHopeless = 8;
+  if (error == -EPIPE) underruns_.fetch_add(1, std::memory_order_relaxed);
+  if (++recoveries_ > kHopeless) return -EIO;
+  return snd_pcm_recover(pcm_, error, 1);
+}
+
 // 0 when all of it went into the device.
 int AlsaAudio::put(std::size_t frames) {
   const std::int16_t* from = mono_.data();
@@ -238,9 +250,7 @@ int AlsaAudio::put(std::size_t frames) {
       if (n == 1) continue;
     }
     if (n < 0) {
-      if (n == -EPIPE) underruns_.fetch_add(1, std::memory_order_relaxed);
-      const int error = snd_pcm_recover(pcm_, static_cast<int>(n), 1);
-      if (error < 0) return error;
+      if (const int error = recover(static_cast<int>(n)); error < 0) return error;
       continue;
     }
     done += static_cast<std::size_t>(n);
@@ -250,11 +260,11 @@ int AlsaAudio::put(std::size_t frames) {
 }
 
 int AlsaAudio::play_period() {
+  const int before = recoveries_;
   const int room = snd_pcm_wait(pcm_, kStuck_ms);
   if (room == 0) return -EIO;
   if (room < 0) {
-    if (room == -EPIPE) underruns_.fetch_add(1, std::memory_order_relaxed);
-    if (const int error = snd_pcm_recover(pcm_, room, 1); error < 0) return error;
+    if (const int error = recover(room); error < 0) return error;
   }
   ring_.skip_to(skip_to_.load(std::memory_order_acquire));
   const std::int64_t ring_position = ring_.taken();
@@ -262,8 +272,27 @@ int AlsaAudio::play_period() {
   pieces_[next_piece_] = {device_frames_, ring_position, static_cast<std::int64_t>(got)};
   next_piece_ = (next_piece_ + 1) % pieces_.size();
   if (const int error = put(period_); error < 0) return error;
+  if (recoveries_ == before) recoveries_ = 0;
   publish();
+  keep_pace();
   return 0;
+}
+
+// A device without a clock (ALSA's null, and what is built on it) takes everything at once: this
+// thread, which has real-time priority, would never let go of its core.
+void AlsaAudio::keep_pace() {
+  constexpr std::int64_t kWindow_us = 1'000'000;
+  // A real card is never 5 % too fast; at its start it takes its whole buffer.
+  const auto passed_us = [this](std::int64_t frames) {
+    return frames * 950'000 / static_cast<std::int64_t>(rate_hz_);
+  };
+  const std::int64_t now_us = monotonic_us();
+  pace_frames_ += static_cast<std::int64_t>(period_);
+  const std::int64_t earliest_us = pace_since_us_ + passed_us(pace_frames_) - 2 * kBuffer_us;
+  if (now_us < earliest_us) sleep_until_us(earliest_us);
+  if (now_us - pace_since_us_ < kWindow_us) return;
+  pace_since_us_ = now_us;
+  pace_frames_ = 0;
 }
 
 void AlsaAudio::publish() {
