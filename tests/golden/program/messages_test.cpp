@@ -94,6 +94,22 @@ TEST(Messages, ConfigErrorsNameTheLine) {
   expect_one_line(run_program("--check --config " + broken.string()), 1, "broken.toml:1");
 }
 
+TEST(Messages, ACheckTellsAllFaultsAtOnce) {
+  const auto folder = fresh_folder("check");
+  const auto text = write_file(folder / "text.pack", "no pack");
+  const Outcome run =
+      run_program("--check --config none.toml --script none.script --play none.fap" +
+                  std::string(" --voice /none --pack ") + text.string());
+  EXPECT_EQ(run.exit_code, 1);
+  for (const char* each : {"none.toml", "none.script", "none.fap", "--voice /none", "text.pack"})
+    EXPECT_NE(run.output.find(each), std::string::npos) << each << " in " << run.output;
+}
+
+TEST(Messages, WhatTheVirtualClockLeavesUndoneIsRefused) {
+  for (const char* each : {"control", "status", "prometheus", "state"})
+    expect_one_line(run_program(std::string("--virtual-clock --") + each + " x"), 2, each);
+}
+
 TEST(Messages, ScriptErrorsNameTheLine) {
   const auto folder = fresh_folder("script");
   const auto unknown = write_file(folder / "a", "# fine\n1.0 bliss down\n");
