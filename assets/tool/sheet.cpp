@@ -109,6 +109,7 @@ Pose pose_of(const Studio& studio, int fap, float value) {
     for (const auto& [open, by] : {std::pair{3, 520.0f}, {4, -120.0f}, {5, -560.0f}})
       pose.faps.set(open, by);
   face::fill_from_partners(&pose.faps);
+  if (fap == 43 || fap == 47) pose.faps.set(45, 240.0f);  // What goes sideways or rolls comes out.
   pose.faps.set(fap, value);
   if (!turns) pose.framing = portrait(studio, tongue ? Portrait::mouth : Portrait::face);
   return pose;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <utility>
 
 namespace caryatid::face {
 namespace {
@@ -103,7 +104,7 @@ constexpr Tie kTies[] = {
     {11, 58, 1, 80},   {4, 51, 1, 130},  {8, 55, 1, 130},  {9, 56, 1, 130},  {12, 59, 1, 150},
     {13, 60, 1, 150},  {6, 53, 1, 60},   {7, 54, 1, 60},   {52, 57, 1, 180}, {52, 58, 1, 180},
     {57, 59, 1, 560},  {58, 60, 1, 560}, {51, 55, 1, 150}, {51, 56, 1, 150}, {55, 59, -1, 350},
-    {56, 60, -1, 350}, {31, 33, 1, 170}, {32, 34, 1, 170}, {33, 35, 1, 140}, {34, 36, 1, 140},
+    {56, 60, -1, 350}, {31, 33, 1, 110}, {32, 34, 1, 110}, {33, 35, 1, 110}, {34, 36, 1, 110},
 };
 
 void pull(const Tie& tie, FapFrame& frame) {
@@ -139,6 +140,24 @@ void part_lips(FapFrame& frame) {
   for (const int fap : {5, 10, 11, 52, 57, 58}) frame.set(fap, std::min(frame.get(fap), lowest));
 }
 
+void pucker_corners(FapFrame& frame) {
+  constexpr float kPuckered = -220.0f, kHeld = 0.6f, kRaised = 380.0f, kLowered = -300.0f;
+  for (int side = 0; side < 2; ++side)
+    for (const auto& [stretch, raise] : {std::pair{6, 12}, {53, 59}}) {
+      const float free = 1.0f - kHeld * ramp(frame.get(stretch + side), 0.0f, kPuckered);
+      frame.set(raise + side,
+                std::clamp(frame.get(raise + side), free * kLowered, free * kRaised * kReach));
+    }
+}
+
+void keep_lips_before_teeth(FapFrame& frame) {
+  // MNS. Two millimetres are what lips give, pressed against teeth; the rest of a tuck goes in
+  // between the edges, which asks for an open jaw.
+  constexpr float kGive = 120.0f, kTuckPerOpening = 1.2f;
+  const float least = -kGive - kTuckPerOpening * std::max(frame.get(3), 0.0f);
+  for (const int fap : {16, 17}) frame.set(fap, std::max(frame.get(fap), least));
+}
+
 void keep_tongue_in(FapFrame& frame) {
   // FAP 45 counts in MW, openings in MNS: three times as short. The tip rests at the teeth; it is
   // flat enough to come out by twice the opening.
@@ -167,8 +186,10 @@ FapFrame MixJob::run() const {
     out.set(fap, soften(out.get(fap), limits->low[i], limits->high[i]));
   }
   part_lips(out);
+  pucker_corners(out);
   keep_flesh_whole(out);
   seal_lips(out);
+  keep_lips_before_teeth(out);
   keep_tongue_in(out);
   seal_lids(out);
   for (int fap = 3; fap <= kFapCount; ++fap) {

@@ -43,6 +43,14 @@ void keep_flesh_whole(FapFrame& frame);
 // along. FAPs 5, 10, 11, 52, 57, 58 change.
 void part_lips(FapFrame& frame);
 
+// Rounded lips hold their corners: orbicularis oris shut to an O leaves zygomaticus and depressor
+// anguli less than half of their way. FAPs 12, 13, 59, 60 change.
+void pucker_corners(FapFrame& frame);
+
+// Lips are tucked in between the teeth, not through them: how far depends on the jaw's opening.
+// FAPs 16, 17 change.
+void keep_lips_before_teeth(FapFrame& frame);
+
 // A tongue comes out only where teeth and lips leave room: the thrust of its tip ends there.
 // FAP 45 changes.
 void keep_tongue_in(FapFrame& frame);

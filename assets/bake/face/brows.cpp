@@ -34,7 +34,7 @@ std::vector<Place> places(const Head& head, int side) {
               xo = head.lateral(outer, side);
   const Eye& eye = head.eye[static_cast<std::size_t>(side)];
   // The brow's own thickness moves as one; frontalis ends beneath the hair line.
-  constexpr float kUnder_m = 0.0045f, kOver_m = 0.007f, kForehead_m = 0.050f, kTemple_m = 0.022f;
+  constexpr float kUnder_m = 0.0065f, kOver_m = 0.008f, kForehead_m = 0.050f, kTemple_m = 0.022f;
   constexpr float kStillRim_m = 0.002f, kLid_m = 0.009f, kNose_m = 0.020f;
   const auto rim_m = distance_m(head.skin, eye.rim, 0.03f);
   std::vector<Place> out(head.skin.size());

@@ -63,7 +63,14 @@ float angle_of(Vec3 p, Vec3 center) { return std::atan2(p.y - center.y, p.z - ce
 
 Carriers carriers_of_brow(const Head& head, const Mesh& mesh) {
   Carriers out;
-  for (const Vec3& p : mesh.position_m) out.push_back(beneath(head, p));
+  // A brow is narrow and keeps its breadth: its hairs go mostly with the skin on the brow's line,
+  // also where the skin beneath them lags behind (near the lid, towards the hair line).
+  constexpr float kOwnSkin = 0.3f;
+  for (Vec3 p : mesh.position_m) {
+    const float line = brow_line_m(head, head.lateral(p, 0) > 0.0f ? 0 : 1, p);
+    p.y = glm::mix(line, p.y, kOwnSkin);
+    out.push_back(beneath(head, p));
+  }
   return out;
 }
 

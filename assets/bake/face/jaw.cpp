@@ -43,8 +43,8 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
     return field;
   };
   add_movements(head, 3, reach(3), 3, drop, out);
-  // Lower teeth that come forward push the lower lip before them.
-  const std::vector<float> with_lip = jaw_weight(head, 0.15f);
+  // Lower teeth that come forward push the lower lip before them; sideways they slide along it.
+  const std::vector<float> with_lip = jaw_weight(head, 0.15f), half_lip = jaw_weight(head, 0.5f);
   const auto shift = [](const std::vector<float>& by, Vec3 axis) {
     return [&by, axis](float m) {
       std::vector<Vec3> field;
@@ -53,7 +53,7 @@ void add_jaw(const Head& head, const ReachOf& reach, std::vector<Movement>& out)
     };
   };
   add_movements(head, 14, reach(14), 1, shift(with_lip, {0, 0, 1}), out);
-  add_movements(head, 15, reach(15), 1, shift(weight, {-1, 0, 0}), out);
+  add_movements(head, 15, reach(15), 1, shift(half_lip, {-1, 0, 0}), out);
 
   // Corrections: a lower lip that its own FAPs lower swings back with an open jaw.
   const Vec3 arm = head.place_of(2, 3) - center;

@@ -51,12 +51,30 @@ Vec3 thrust(const Tongue& tongue, Vec3 p, float m) {
           m * share * (1.0f - lag)};
 }
 
+// In an open mouth the tip comes out over the lower lip, which stands higher than the teeth that
+// the tongue rests behind: how far up at each of the steps of a thrust, for a jaw open by kOpenJaw.
+constexpr float kOpenJaw = 520.0f, kOverLip_m = 0.0095f, kOverLipAt_m = 0.0105f;
+constexpr int kThrustSteps = 4;
+
+Vec3 over_lip(const Tongue& tongue, Vec3 p, float from_m, float to_m) {
+  const float lift = smooth(to_m / kOverLipAt_m) - smooth(from_m / kOverLipAt_m);
+  return {0, kOverLip_m * lift * tip_share(tongue, p), 0};
+}
+
 // Edges rise about the mid-line like the leaves of a book.
 Vec3 rolled(const Tongue& tongue, Vec3 p, float angle) {
   const float middle = 0.5f * (tongue.low.x + tongue.high.x);
   const float bend = angle * smooth(std::abs(tongue.at(p).across)) * smooth(tongue.at(p).along * 2);
   const float x = p.x - middle;
   return {x * (std::cos(bend) - 1.0f), std::abs(x) * std::sin(bend), 0};
+}
+
+std::vector<Move> moves_of(const Tongue& tongue, const std::function<Vec3(Vec3)>& displace) {
+  std::vector<Move> out;
+  for (std::uint32_t i = 0; i < tongue.mesh.position_m.size(); ++i)
+    if (const Vec3 d = displace(tongue.mesh.position_m[i]); glm::length(d) > 5e-6f)
+      out.push_back({i, d, Vec3(0)});
+  return out;
 }
 
 }  // namespace
@@ -79,15 +97,21 @@ std::vector<PartMove> tongue_moves(const Character& character, const Head& head,
         PartMove move{o, {static_cast<std::uint16_t>(fap), 0, 0.0f, end, 0.0f, 0.0f}, {}};
         if (fap == 3) move.channel.to = 400.0f;  // Flat by then; the jaw goes on.
         const float amount = end * metres_per_unit(head, fap);
-        for (std::uint32_t i = 0; i < tongue.mesh.position_m.size(); ++i)
-          if (const Vec3 d = displace(tongue.mesh.position_m[i], amount); glm::length(d) > 5e-6f)
-            move.moves.push_back({i, d, Vec3(0)});
+        move.moves = moves_of(tongue, [&](Vec3 p) { return displace(p, amount); });
         out.push_back(std::move(move));
       }
     };
     add(43, [&](Vec3 p, float m) { return Vec3(-m * tip_share(tongue, p), 0, 0); });
     add(44, [&](Vec3 p, float m) { return Vec3(0, m * tip_share(tongue, p), 0); });
     add(45, [&](Vec3 p, float m) { return thrust(tongue, p, m); });
+    for (int k = 0; k < kThrustSteps; ++k) {
+      const float end = reach(45).high, unit_m = metres_per_unit(head, 45);
+      const float from = end * static_cast<float>(k) / kThrustSteps;
+      const float to = end * static_cast<float>(k + 1) / kThrustSteps;
+      out.push_back({o, {45, 3, from, to, 0.0f, kOpenJaw}, moves_of(tongue, [&](Vec3 p) {
+                       return over_lip(tongue, p, from * unit_m, to * unit_m);
+                     })});
+    }
     add(46, [&](Vec3 p, float m) { return Vec3(0, m * body_share(tongue, p), 0); });
     // The jaw takes it along, and its back lowers besides: the tip stays behind the lower teeth.
     const float open_m = 400.0f * metres_per_unit(head, 3);

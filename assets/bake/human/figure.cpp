@@ -9,6 +9,7 @@
 #include "assets/bake/human/mesh_tools.h"
 #include "assets/bake/human/neutral.h"
 #include "assets/bake/human/repose.h"
+#include "assets/bake/human/wet_lips.h"
 
 namespace caryatid::bake {
 namespace {
@@ -126,6 +127,7 @@ Figure make_figure(const Recipe& recipe, const BaseHuman& base,
     figure.parts.push_back(std::move(fitted));
   }
   seat_bite(places, glm::mix(kIncisorShowMan_m, kIncisorShowWoman_m, recipe.macro.female), figure);
+  part_wet_lips(places, figure);
   for (const Bone& bone : base.bones())
     figure.bone_head_m.push_back(BaseHuman::mean(figure.base_m, bone.head_vertices));
   return figure;

@@ -17,7 +17,7 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0xb7f44cec56e8cd83u, kPoseHash = 0x18d89feb35823a52u,
+constexpr std::uint64_t kJoyHash = 0xeb36b18dbcc17994u, kPoseHash = 0x18d89feb35823a52u,
                         kDrawListHash = 0x9b97e4c8ab23f21eu;
 
 class Hash : public testing::Test {

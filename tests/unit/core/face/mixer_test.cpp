@@ -17,6 +17,30 @@ FapLimits wide() {
   return limits;
 }
 
+TEST(Mixer, LipsAreTuckedInBetweenOpenTeethOnly) {
+  FapFrame frame;
+  frame.set(3, 0.0f);
+  frame.set(16, -220.0f);
+  frame.set(17, 100.0f);
+  keep_lips_before_teeth(frame);
+  EXPECT_GT(frame.get(16), -150.0f);
+  EXPECT_EQ(frame.get(17), 100.0f);
+  frame.set(3, 100.0f);
+  frame.set(16, -220.0f);
+  keep_lips_before_teeth(frame);
+  EXPECT_EQ(frame.get(16), -220.0f);
+}
+
+TEST(Mixer, RoundedLipsHoldTheirOwnCorner) {
+  FapFrame frame;
+  for (const int side : {0, 1}) frame.set(12 + side, 380.0f);
+  frame.set(6, -220.0f);
+  frame.set(7, 100.0f);
+  pucker_corners(frame);
+  EXPECT_LT(frame.get(12), 200.0f);
+  EXPECT_EQ(frame.get(13), 380.0f);
+}
+
 TEST(Mixer, NothingGivesTheNeutralFace) {
   const FapLimits limits = wide();
   const FapFrame out = MixJob{.limits = &limits}.run();
