@@ -2,6 +2,7 @@
 
 #include <FLAC/stream_decoder.h>
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -29,7 +30,8 @@ FLAC__StreamDecoderWriteStatus take(const FLAC__StreamDecoder*, const FLAC__Fram
     double sum = 0.0;
     for (unsigned c = 0; c < h.channels; ++c) sum += channels[c][i];
     const double full = static_cast<double>(1 << (h.bits_per_sample - 1));
-    d.spoken.samples.push_back(static_cast<std::int16_t>(sum / h.channels / full * 32767.0));
+    d.spoken.samples.push_back(
+        static_cast<std::int16_t>(std::floor(sum / h.channels / full * 32768.0)));
   }
   return FLAC__STREAM_DECODER_WRITE_STATUS_CONTINUE;
 }

@@ -242,7 +242,7 @@ float mouth_lead_ms(float frame_ms) {
   return kCentre_ms + 0.5f * std::clamp(frame_ms, kLeastFrame_ms, kMostFrame_ms);
 }
 
-Mouth::Mouth() {
+Mouth::Mouth(bool holds_contacts) : holds_contacts_(holds_contacts) {
   for (int v = 0; v < face::kVisemeCount; ++v) {
     const auto i = static_cast<std::size_t>(v);
     shapes_[i] = face::viseme_frame(v);
@@ -358,7 +358,7 @@ MouthShape Mouth::at(const Utterance& utterance, float now_ms, float frame_ms) c
   const Shares shares = blend(segments, t);
   MouthShape out;
   mix_shapes(shapes_, shares, out.faps);
-  out.contact = hold_contacts(segments, shapes_, t, least_ms, out.faps);
+  if (holds_contacts_) out.contact = hold_contacts(segments, shapes_, t, least_ms, out.faps);
   out.viseme = nearest_field(shares);
   out.strength = strength_at(segments, t);
   return out;

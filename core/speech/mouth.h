@@ -25,7 +25,9 @@ struct MouthShape {
 
 class Mouth {
  public:
-  Mouth();  // Takes the shapes of face::viseme_frame(), about 20 us.
+  // Takes the shapes of face::viseme_frame(), about 20 us. holds_contacts: false leaves the blend
+  // to itself, so that tests can show what the certainty of contacts is worth.
+  explicit Mouth(bool holds_contacts = true);
 
   // now_ms: the moment in the utterance's audio that is heard when the picture is seen;
   // mouth_lead_ms() is added here. frame_ms: time until the next picture (clamped to 8..100): no
@@ -34,6 +36,7 @@ class Mouth {
 
  private:
   std::array<face::FapFrame, face::kVisemeCount> shapes_;
+  bool holds_contacts_;
 };
 
 }  // namespace caryatid::speech

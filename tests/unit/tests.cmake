@@ -122,3 +122,13 @@ target_compile_definitions(unit_platform_voice PRIVATE
   CARYATID_FAKE_VOICE="$<TARGET_FILE:fake-voice>" CARYATID_REAL_VOICE="${real_voice}")
 add_dependencies(unit_platform_voice fake-voice)
 add_test(NAME unit_platform_voice COMMAND unit_platform_voice)
+# What caryatid-tool reads and writes by itself.
+if(CARYATID_HOST_TOOLS AND TARGET caryatid-tool)
+  file(GLOB tool_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/tool/*.cpp)
+  set(tool_room ${CMAKE_SOURCE_DIR}/assets/tool)
+  add_executable(unit_tool ${tool_tests} ${tool_room}/animated_png.cpp ${tool_room}/flac.cpp
+    ${tool_room}/spoken.cpp)
+  target_link_libraries(unit_tool PRIVATE caryatid_bake caryatid_voice_client ZLIB::ZLIB
+    PkgConfig::FLAC caryatid_flags GTest::gtest_main)
+  add_test(NAME unit_tool COMMAND unit_tool)
+endif()

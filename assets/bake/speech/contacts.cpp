@@ -120,8 +120,8 @@ bool is_due(std::span<const TimedPhone> phones, double time_s) {
 }
 
 std::vector<Shown> show(std::span<const TimedPhone> phones, double end_s,
-                        const face::FapFrame& mood, agent::Person* person) {
-  const speech::Mouth mouth;
+                        const face::FapFrame& mood, const speech::Mouth& mouth,
+                        agent::Person* person) {
   Lips lips(person);
   auto utterance = std::make_unique<speech::Utterance>();
   std::vector<Shown> out;
@@ -152,8 +152,9 @@ std::vector<Shown> show(std::span<const TimedPhone> phones, double end_s,
 }  // namespace
 
 ContactReport measure_contacts(std::span<const TimedPhone> phones, double end_s,
-                               const face::FapFrame& mood, agent::Person* person) {
-  const std::vector<Shown> shown = show(phones, end_s, mood, person);
+                               const face::FapFrame& mood, agent::Person* person,
+                               const speech::Mouth& mouth) {
+  const std::vector<Shown> shown = show(phones, end_s, mood, mouth, person);
   ContactReport out;
   for (std::size_t i = 0; i < phones.size(); ++i) {
     const Contact contact = speech::phoneme_of(phones[i].ipa).begins.contact;

@@ -5,6 +5,7 @@
 
 #include "assets/bake/speech/sync.h"
 #include "core/agent/person.h"
+#include "core/speech/mouth.h"
 
 namespace caryatid::bake {
 
@@ -22,6 +23,7 @@ struct ContactReport {
 // Speaks the phones at 30 frames a second with `mood` (added to the calm face) and measures every
 // contact on `person`'s finest level. end_s: of the last phone.
 ContactReport measure_contacts(std::span<const TimedPhone> phones, double end_s,
-                               const face::FapFrame& mood, agent::Person* person);
+                               const face::FapFrame& mood, agent::Person* person,
+                               const speech::Mouth& mouth = speech::Mouth());
 
 }  // namespace caryatid::bake

@@ -39,16 +39,16 @@ struct Loaded {
   }
 };
 
-// Contacts among vowels of every kind, at the pace of lively speech.
-std::vector<TimedPhone> phones() {
+// Contacts among vowels of every kind; by default at the pace of lively speech.
+std::vector<TimedPhone> phones(double vowel_s = 0.09, double contact_s = 0.07) {
   constexpr const char* kContacts[] = {"p", "f", "m", "v", "b"};
   constexpr const char* kVowels[] = {"ɑː", "iː", "uː", "æ", "ɔː", "ə"};
   std::vector<TimedPhone> out;
   double t = 0.3;
   for (std::size_t i = 0; i < 30; ++i) {
     out.push_back({t, kVowels[i % std::size(kVowels)]});
-    out.push_back({t + 0.09, kContacts[i % std::size(kContacts)]});
-    t += 0.16;
+    out.push_back({t + vowel_s, kContacts[i % std::size(kContacts)]});
+    t += vowel_s + contact_s;
   }
   out.push_back({t, ""});
   return out;
@@ -84,6 +84,28 @@ TEST(SpeechContacts, LipsAndTeethOfBothPeopleMeetInEveryMood) {
       EXPECT_EQ(r.touching, r.labiodentals)
           << name << " " << emotion::kEmotionNames[e] << " " << r.farthest_teeth_m;
     }
+  }
+}
+
+// Negative control: in haste, without the certainty of contacts, the same measure sees them missed.
+TEST(SpeechContacts, InHasteABlendAloneMissesThemAndTheMouthDoesNot) {
+  const auto loaded = std::make_unique<Loaded>();
+  const std::string woman = CARYATID_SOURCE_DIR "/build/host-release/packs/woman.pack";
+  const bool teeth = std::filesystem::exists(woman);
+  ASSERT_TRUE(loaded->load(teeth ? woman : CARYATID_SOURCE_DIR "/firmware-app/builtin_face.pack"));
+  const auto p = phones(0.05, 0.02);
+  const double end_s = p.back().start_s + 0.3;
+  const ContactReport blend = measure_contacts(p, end_s, {}, &loaded->person, speech::Mouth(false));
+  EXPECT_EQ(blend.bilabials, 18u);
+  EXPECT_EQ(blend.labiodentals, 12u);
+  EXPECT_LT(blend.shut, 9u);
+  EXPECT_LT(blend.touching, blend.labiodentals);
+  EXPECT_GT(blend.farthest_teeth_m, kTeethMet_m);
+  const ContactReport held = measure_contacts(p, end_s, {}, &loaded->person);
+  EXPECT_EQ(held.shut, held.bilabials);
+  if (teeth) {
+    EXPECT_EQ(held.touching, held.labiodentals);
+    EXPECT_LT(held.farthest_teeth_m, 0.4f * blend.farthest_teeth_m);
   }
 }
 

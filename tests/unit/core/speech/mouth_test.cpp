@@ -79,6 +79,26 @@ TEST(Mouth, TongueIsSeenOnThAndL) {
   }
 }
 
+// The same questions to a mouth that only blends: they are not answered by chance.
+TEST(Mouth, ABlendAloneHasNoContacts) {
+  const Mouth blend(false);
+  const float t = 200.0f + 45.0f - mouth_lead_ms(33.0f);
+  const auto at = [&](const char* consonant) {
+    return blend.at(*spoken({"ɑː", consonant, "ɑː"}, 30), t, 33.0f).faps;
+  };
+  EXPECT_GT(lip_gap(at("p")), 20.0f);
+  EXPECT_GT(lip_gap(at("m")), 20.0f);
+  const auto off = [](const face::FapFrame& shown, int viseme, std::initializer_list<int> faps) {
+    float most = 0.0f;
+    for (const int fap : faps)
+      most = std::max(most, std::abs(shown.get(fap) - face::viseme_frame(viseme).get(fap)));
+    return most;
+  };
+  EXPECT_GT(off(at("f"), 2, {4, 5, 16, 17}), 20.0f);
+  EXPECT_GT(off(at("θ"), 3, {43, 44, 45, 46, 47}), 5.0f);
+  EXPECT_GT(off(at("l"), 8, {43, 44, 45, 46, 47}), 5.0f);
+}
+
 TEST(Mouth, NeighboursColourASound) {
   // Lips are rounded already in the k before u, not in that before i.
   const auto rounded = spoken({"k", "u"}, 90), spread = spoken({"k", "i"}, 90);
