@@ -18,9 +18,12 @@ constexpr float kRefineGain = 1.08f;    // Less is not worth a change.
 constexpr float kReshare = 0.25f;       // An object's share must be this far off.
 constexpr float kWaitMin_s = 2.0f, kWaitMax_s = 64.0f, kMistake_s = 30.0f, kForgive_s = 120.0f;
 constexpr float kTryEvery_s = 0.25f;
+constexpr float kRealStep = 1.15f, kUnsettled_s = 3.0f;  // Smaller ones may be noise.
 // Without a fence the GPU is known by bounds alone, its pixels and triangles not apart: a better
 // rung needs room for that, and nothing grows soon after a late frame, the first of a step perhaps.
 constexpr float kBlindShare = 0.95f, kBlindRungShare = 0.8f, kBlindWait_s = 2.0f;
+// How much a step slowed the GPU isn't known either: the first answer must be enough.
+constexpr float kBlindHurryShare = 0.75f;
 constexpr float kAhead_s = 0.5f;    // What a hidden and morphed change takes.
 constexpr float kTrend_s = 0.15f;   // Time constant of the camera's trend.
 constexpr float kThrottle = 1.43f;  // What a hot board is about to cost more: clocks fall by 30 %.
@@ -77,7 +80,7 @@ void BudgetController::advance_clock(const FrameSample& sample, const SceneNeeds
   last_time_us_ = sample.time_us;
   const float s = static_cast<float>(passed_us) * 1e-6f;
   for (float* timer : {&since_change_s_, &since_refine_s_, &since_reduce_s_, &since_try_s_,
-                       &since_unexplained_s_, &since_late_s_, &idle_s_})
+                       &since_unexplained_s_, &since_late_s_, &since_step_s_, &idle_s_})
     *timer = std::min(*timer + s, kLong);
   if (!needs.idle) idle_s_ = 0.0f;
   if (late_) since_late_s_ = 0.0f;
@@ -102,7 +105,7 @@ void BudgetController::follow_camera(const SceneNeeds& needs, float passed_s) {
 
 void BudgetController::learn(const FrameSample& sample) {
   if (sample.thermal > thermal_ || sample.other_load_percent >= other_load_percent_ + 15)
-    evidence_s_ = 1.0f;
+    evidence_s_ = 1.0f, since_step_s_ = 0.0f;
   thermal_ = sample.thermal;
   other_load_percent_ = sample.other_load_percent;
   if (sample.cpu_us == FrameSample::kUnknown) return;
@@ -111,19 +114,24 @@ void BudgetController::learn(const FrameSample& sample) {
   const auto cpu_us = static_cast<float>(sample.cpu_us);
   // A step of one stage makes one of the other likely: a hot board slows both.
   const float step = cpu_.learn(cpu_terms(config_.prior, sample.drawn), cpu_us, late_, evidence);
-  if (step > 1.0f) evidence_s_ = 1.0f;
+  note_step(step);
   learn_gpu(sample, evidence || step > 1.0f);
   if (thermal_ == ThermalLevel::normal) {
-    cool_cpu_ = cpu_.slowdown();
-    cool_gpu_ = gpu_.slowdown();
+    cpu_.count_slowdown_from_here();
+    gpu_.count_slowdown_from_here();
   }
+}
+
+void BudgetController::note_step(float factor) {
+  if (factor > 1.0f) evidence_s_ = 1.0f;
+  if (factor > kRealStep) since_step_s_ = 0.0f;
 }
 
 void BudgetController::learn_gpu(const FrameSample& sample, bool evidence) {
   const Terms terms = gpu_terms(config_.prior, sample.drawn);
   if (sample.gpu_us != FrameSample::kUnknown) {
     const float step = gpu_.learn(terms, static_cast<float>(sample.gpu_us), late_, evidence);
-    if (step > 1.0f) evidence_s_ = 1.0f;
+    note_step(step);
     learn_overhead(sample);
   } else if (sample.vblanks > 0) {
     const int periods = late_ ? sample.vblanks - 1 : sample.vblanks;
@@ -153,12 +161,11 @@ float BudgetController::predict_now(const Work& work) const {
 // While hot, plans for the clocks that throttling will bring, less what has already come.
 float BudgetController::predict(const Work& work) const {
   if (thermal_ < ThermalLevel::hot) return predict_now(work);
-  const auto factor = [](float cool, float slowdown) {
-    return std::clamp(kThrottle * cool / slowdown, 1.0f, kThrottle);
+  const auto factor = [](float slowdown) {
+    return std::clamp(kThrottle / slowdown, 1.0f, kThrottle);
   };
-  return factor(cool_cpu_, cpu_.slowdown()) * cpu_.predict(cpu_terms(config_.prior, work)) +
-         factor(cool_gpu_, gpu_.slowdown()) * gpu_.predict(gpu_terms(config_.prior, work)) +
-         overhead_us_;
+  return factor(cpu_.slowdown()) * cpu_.predict(cpu_terms(config_.prior, work)) +
+         factor(gpu_.slowdown()) * gpu_.predict(gpu_terms(config_.prior, work)) + overhead_us_;
 }
 
 BudgetController::Limits BudgetController::limits(const Work& work) const {
@@ -238,13 +245,14 @@ BudgetController::Plan BudgetController::best_plan(int first_rung, float limit_u
   }
 }
 
-// The objects with their maxima lowered to what is decided now and `growth` of the full mesh.
-std::span<const ObjectNeed> BudgetController::cap(const SceneNeeds& needs, float growth,
-                                                  Needs& storage) const {
+// The objects with their maxima lowered to `share` of what is decided now and `growth` of the full
+// mesh.
+std::span<const ObjectNeed> BudgetController::cap(const SceneNeeds& needs, float share,
+                                                  float growth, Needs& storage) const {
   const std::size_t count = count_of(needs);
   for (std::size_t i = 0; i < count; ++i) {
     storage[i] = needs.objects[i];
-    const auto now = static_cast<float>(decision_.triangles[i]);
+    const auto now = share * static_cast<float>(decision_.triangles[i]);
     const auto range = static_cast<float>(needs.objects[i].max_triangles);
     const auto most = static_cast<std::uint32_t>(now + growth * std::max(now, range));
     storage[i].max_triangles =
@@ -273,14 +281,17 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
   drawn.shaded_px /= approach_;  // As it is, not as it will be.
   const bool lagging = predict_now(drawn) > limit.hurry_us;
   if ((predicted <= limit.reduce_us && !lagging) || at_floor(needs)) return false;
-  // One change a second unless something has happened: a step, a moving camera, a frame beyond
-  // hope.
+  // One change a second unless something has happened: a moving camera, or a step, in whose wake a
+  // frame beyond hope counts too. Else that is a refinement gone wrong, or noise.
   const bool stepped = evidence_s_ > 0.0f && since_late_s_ < 0.5f;
   const bool missing = predicted > limit.deadline_us && since_late_s_ < 0.5f;
-  const bool eventful = stepped || approach_ > 1.01f || missing;
+  const bool eventful = approach_ > 1.01f || (since_step_s_ < kUnsettled_s && (stepped || missing));
   if (since_change_s_ < 1.0f && !eventful) return false;
   Needs storage;
-  const std::span<const ObjectNeed> capped = cap(needs, 0.0f, storage);
+  // A refinement on its way ends where it is.
+  const auto decided = static_cast<float>(total(std::span(decision_.triangles).first(count)));
+  const float reached = static_cast<float>(sample.drawn.triangles) / std::max(decided, 1.0f);
+  const std::span<const ObjectNeed> capped = cap(needs, std::min(reached, 1.0f), 0.0f, storage);
   Plan plan = best_plan(rung_, limit.plan_us, needs, capped);
   const bool hurry = late_ || lagging;
   bulk_ = false;
@@ -292,9 +303,10 @@ bool BudgetController::reduce(const FrameSample& sample, const SceneNeeds& needs
     next.vertices_deformed = std::max(next.vertices_deformed, drawn.vertices_deformed);
     next.shaded_px /= approach_;
     next.records = kRecordsMin;
-    if (predict_now(next) <= limit.reduce_us) break;
+    const float next_us = predict_now(next);
+    if (next_us <= (blind_ ? kBlindHurryShare : 1.0f) * limit.reduce_us) break;
     if (plan.rung + 1 == static_cast<int>(kRungs.size())) {
-      bulk_ = true;  // One long frame is better than many late ones.
+      bulk_ = next_us > limit.reduce_us;  // One long frame is better than many late ones.
       break;
     }
     plan = plan_at(plan.rung + 1, limit.plan_us, kComfort, needs, capped);
@@ -336,7 +348,7 @@ bool BudgetController::refine(const SceneNeeds& needs) {
   const Limits limit = limits(work_of(now, rung_, needs));
   const float limit_us = kRefineTo * (blind_ ? kBlindShare : 1.0f) * limit.plan_us;
   Needs storage;
-  const std::span<const ObjectNeed> capped = cap(needs, kRefineGrowth, storage);
+  const std::span<const ObjectNeed> capped = cap(needs, 1.0f, kRefineGrowth, storage);
   Change change = Change::refine;
   Plan plan;
   if (rung_ > 0)

@@ -65,6 +65,7 @@ class BudgetController {
   void follow_camera(const SceneNeeds& needs, float passed_s);
   void learn(const FrameSample& sample);
   void learn_overhead(const FrameSample& sample);
+  void note_step(float factor);
   void learn_gpu(const FrameSample& sample, bool evidence);
   float predict_now(const Work& work) const;
   float predict(const Work& work) const;
@@ -74,7 +75,8 @@ class BudgetController {
                std::span<const ObjectNeed> capped) const;
   Plan best_plan(int first_rung, float limit_us, const SceneNeeds& needs,
                  std::span<const ObjectNeed> capped) const;
-  std::span<const ObjectNeed> cap(const SceneNeeds& needs, float growth, Needs& storage) const;
+  std::span<const ObjectNeed> cap(const SceneNeeds& needs, float share, float growth,
+                                  Needs& storage) const;
   bool at_floor(const SceneNeeds& needs) const;
   bool reduce(const FrameSample& sample, const SceneNeeds& needs);
   bool worth_refining(const Plan& goal, float limit_us, const SceneNeeds& needs) const;
@@ -90,16 +92,15 @@ class BudgetController {
   LodDecision decision_;
   int rung_ = 0;
   float covered_px_ = 0, trend_px_s_ = 0, approach_ = 1;  // Of all objects at render scale 1.
-  float overhead_us_ = 0;              // Makes up for late frames that cpu and gpu do not explain.
-  float cool_cpu_ = 1, cool_gpu_ = 1;  // Slowdown when the board was last cool.
+  float overhead_us_ = 0;  // Makes up for late frames that cpu and gpu do not explain.
   ThermalLevel thermal_ = ThermalLevel::normal;
   std::uint8_t other_load_percent_ = 0;
   bool late_ = false, started_ = false, bulk_ = false, saving_ = false, blind_ = false;
   std::uint64_t last_time_us_ = 0;
   // Seconds, saturating far beyond every threshold.
   float since_change_s_ = 0, since_refine_s_ = kLong, since_reduce_s_ = kLong, since_try_s_ = 0;
-  float since_unexplained_s_ = kLong, since_late_s_ = kLong, idle_s_ = 0, evidence_s_ = 0,
-        wait_s_ = 2;
+  float since_unexplained_s_ = kLong, since_late_s_ = kLong, since_step_s_ = kLong, idle_s_ = 0,
+        evidence_s_ = 0, wait_s_ = 2;
   static constexpr float kLong = 1e6f;
 };
 

@@ -45,8 +45,10 @@ class StageModel {
   void expect_change();
 
   float gain(std::size_t term) const { return gain_[term]; }
-  float deviation() const;                      // Relative, of one frame.
-  float slowdown() const { return slowdown_; }  // Product of all steps since the start.
+  float deviation() const;  // Relative, of one frame.
+  // Product of all steps since the board was last cool.
+  float slowdown() const { return slowdown_; }
+  void count_slowdown_from_here() { slowdown_ = 1.0f; }
 
  private:
   static constexpr float kPrior = 0.09f;  // A profile's term is right to about 30 %.
