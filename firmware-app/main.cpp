@@ -1,4 +1,5 @@
 // caryatid: the agent's program. Exit codes: 0 done, 1 failed at run time, 2 wrong usage.
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -63,9 +64,10 @@ int main(int argc, char** argv) {
   close_line(options, kiosk->report());
   std::fflush(stdout);
   kiosk->close_screen();
-  // A sound or USB driver that hangs must not keep the program.
+  // A sound or USB driver that hangs must not keep the program beyond its second.
   std::signal(SIGALRM, [](int) { _exit(0); });
-  alarm(1);
+  const itimerval soon{{0, 0}, {0, 600'000}};
+  (void)setitimer(ITIMER_REAL, &soon, nullptr);
   kiosk.reset();
   return 0;
 }
