@@ -63,7 +63,8 @@ Status Notifier::beat(std::int64_t now_us, const Vitals& seen) {
 }
 
 bool Notifier::withheld(std::int64_t now_us) const {
-  return period_us_ > 0 && began_ && now_us - last_us_ > period_us_;
+  // A beat comes with the first frame behind its time.
+  return period_us_ > 0 && began_ && now_us - last_us_ > period_us_ + period_us_ / 2;
 }
 
 }  // namespace caryatid::platform

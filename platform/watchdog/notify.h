@@ -40,7 +40,7 @@ class Notifier {
   Status stopping() { return send("STOPPING=1"); }
   // Each frame. Sends when the period is over and every vital sign was seen since the last one.
   Status beat(std::int64_t now_us, const Vitals& seen);
-  // True when the heartbeat is overdue: for the status file and the log.
+  // True when the heartbeat is overdue by half its period: for the status file and the log.
   bool withheld(std::int64_t now_us) const;
 
  private:

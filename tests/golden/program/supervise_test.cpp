@@ -106,6 +106,7 @@ TEST_F(Supervised, SoundThatStandsStillNoHeartbeat) {
   const std::string pipe = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const int reader = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(::fcntl(reader, F_SETPIPE_SZ, 4096), 0);  // Full within a tenth of a second.
   write_file(folder_ / "asound", "pcm.stuck { type file slave.pcm quiet format raw file '" + pipe +
                                      "' }\n" + "pcm.quiet { type null }\n");
   start("none", "alsa:stuck");

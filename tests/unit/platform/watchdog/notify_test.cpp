@@ -95,6 +95,7 @@ TEST_F(NotifyTest, ItBeatsEveryHalfPeriod) {
   ASSERT_TRUE(notifier_.open().ok());
   int beats = 0;
   for (std::int64_t now_us = 0; now_us <= 60 * kSecond_us; now_us += 33'333) {
+    EXPECT_FALSE(notifier_.withheld(now_us)) << now_us;
     EXPECT_TRUE(notifier_.beat(now_us, kAll).ok());
     if (received() == "WATCHDOG=1") ++beats;
   }
