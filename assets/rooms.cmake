@@ -24,4 +24,5 @@ if(tool_sources)
   target_link_libraries(caryatid-tool PRIVATE caryatid_bake caryatid_render caryatid_display
     caryatid_voice_client ZLIB::ZLIB PkgConfig::FLAC
     caryatid_flags)
+  target_compile_definitions(caryatid-tool PRIVATE CARYATID_VERSION="${PROJECT_VERSION}")
 endif()

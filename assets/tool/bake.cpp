@@ -1,9 +1,5 @@
 // caryatid-tool bake: from a recipe to a pack.
-#include <unistd.h>
-
-#include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 #include "assets/bake/anthropometry/measures.h"
@@ -18,7 +14,9 @@
 #include "assets/bake/pack/small.h"
 #include "assets/bake/pack/writer.h"
 #include "assets/bake/texture/image.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/progress.h"
 
 namespace caryatid::tool {
 namespace {
@@ -29,19 +27,6 @@ struct BakeArgs {
   std::string anthropometry;  // Where the measurements go; empty: printed.
   bool licences = false, small = false;
   CLI::Option* measured = nullptr;
-};
-
-// Says what is under way: on a terminal at once, in a pipe nothing.
-class Progress {
- public:
-  void step(const char* what) {
-    if (isatty(2) == 0) return;
-    const std::chrono::duration<double> t = std::chrono::steady_clock::now() - began_;
-    std::fprintf(stderr, "%5.1f s  %s\n", t.count(), what);
-  }
-
- private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 std::string default_base() {
@@ -105,17 +90,14 @@ void add_anthropometry(CLI::App* cmd, BakeArgs* a) {
   a->measured = cmd->add_option("--anthropometry", a->anthropometry,
                                 "Measure the head: a table with norms, or into FILE.json");
   a->measured->expected(0, 1)->type_name("[FILE.json]");
+  writes(a->measured, {".json"});
 }
 
 void write_pack(const bake::Character& character, const bake::PackOptions& options,
                 const std::string& path) {
   bake::PackReport report;
   const std::vector<std::byte> bytes = bake::write_pack(character, options, &report);
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush())
-    throw std::runtime_error(path + ": can't be written; name a folder that exists");
+  bake::write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   print_report(report);
 }
 
@@ -132,10 +114,10 @@ void bake_sent_body(const BakeArgs& a) {
 void bake_character(const BakeArgs& a) {
   if (!a.bdp.empty() && a.bdp_profile == "predictable") return bake_sent_body(a);
   Progress progress;
-  progress.step("read the base human");
-  const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
   const std::filesystem::path recipe_file = a.recipe;
   const bake::Recipe recipe = bake::read_recipe(recipe_file);
+  progress.step("read the base human");
+  const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
   const auto places =
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
   progress.step("build the person");
@@ -163,7 +145,6 @@ void bake_character(const BakeArgs& a) {
     options.base_fraction = {0.12, 0.35, 0.50, 0.22, 0.30, 0.05, 1.0, 1.0};
   }
   write_pack(character, options, a.out);
-  progress.step("done");
 }
 
 // The table of working ranges stands beside the characters, in the source tree that the tool was
@@ -207,18 +188,20 @@ void bake_head(const BakeArgs& a) {
           1.0,
           std::max(options.base_fraction[0], kLeastTriangles / double(o.mesh.triangles.size())));
   write_pack(head.character, options, a.out);
-  progress.step("done");
 }
 
 // The picture of all feature points, numbered: the face from the front, from its left, and the
 // mouth without the skin. Four views in one image.
 void draw_feature_points(const BakeArgs& a) {
+  Progress progress;
+  progress.step("read the base human");
   const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
   const std::filesystem::path recipe_file = a.recipe;
   const auto places =
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
-  const bake::Character person =
-      bake::build_character(bake::read_recipe(recipe_file), base, places);
+  const bake::Recipe recipe = bake::read_recipe(recipe_file);
+  progress.step("build the person");
+  const bake::Character person = bake::build_character(recipe, base, places);
   const auto point = [&](int group, int index) {
     for (const bake::FeaturePoint& p : person.feature_points)
       if (p.group == group && p.index == index) return p.position_m;
@@ -232,6 +215,7 @@ void draw_feature_points(const BakeArgs& a) {
   view.hide = {"hair"};
   view.target_m = eyes - Vec3{0, 0.035f, 0};
   view.height_m = 0.27f;
+  progress.step("draw");
   const bake::Image front = bake::render_preview(person, view);
   view.yaw_rad = 1.2f;
   const bake::Image side = bake::render_preview(person, view);
@@ -276,15 +260,15 @@ void add_bake(CLI::App& app) {
   cmd->require_subcommand(1);
   auto a = std::make_shared<BakeArgs>();
   CLI::App* character = cmd->add_subcommand("character", "A person from a recipe");
-  character->add_option("recipe", a->recipe, "RECIPE.toml")->required();
-  character->add_option("-o,--out", a->out, "PACK")->required();
+  reads(character->add_option("recipe", a->recipe, "RECIPE.toml")->required());
+  writes(character->add_option("-o,--out", a->out, "PACK")->required());
   character->add_option("--base", a->base,
                         "Folder of the base human (default: where cross/host.sh puts it)");
   character->add_flag("--licences", a->licences, "Print the licence of every source");
   character->add_flag("--small", a->small,
                       "Head and shoulders without refinements: the agent's built-in face");
-  character->add_option("--bdp", a->bdp,
-                        "SENT.wrl: a sent body definition, an H-Anim humanoid in VRML");
+  reads(character->add_option("--bdp", a->bdp,
+                              "SENT.wrl: a sent body definition, an H-Anim humanoid in VRML"));
   character
       ->add_option("--bdp-profile", a->bdp_profile,
                    "What becomes of it: simple (ignored), calibration (the person takes on its "
@@ -293,30 +277,30 @@ void add_bake(CLI::App& app) {
   add_anthropometry(character, a.get());
   character->footer(
       "example: caryatid-tool bake character assets/characters/woman.toml -o woman.pack");
-  character->callback([a] { bake_character(*a); });
+  on_run(character, [a] { bake_character(*a); });
   auto h = std::make_shared<BakeArgs>();
   CLI::App* head = cmd->add_subcommand(
       "head", "A foreign head: a mesh with a list of feature points and nothing else");
-  head->add_option("mesh", h->recipe, "IN.obj (or .off, .ply)")->required();
-  head->add_option("--points", h->points, "The list of feature points")->required();
-  head->add_option("-o,--out", h->out, "PACK")->required();
-  head->add_option(
+  reads(head->add_option("mesh", h->recipe, "IN.obj (or .off, .ply)")->required());
+  reads(head->add_option("--points", h->points, "The list of feature points")->required());
+  writes(head->add_option("-o,--out", h->out, "PACK")->required());
+  reads(head->add_option(
       "--ranges", h->ranges,
-      "Working ranges of the FAPs (default: assets/characters/fap_working_ranges.csv)");
+      "Working ranges of the FAPs (default: assets/characters/fap_working_ranges.csv)"));
   head->add_flag("--licences", h->licences, "Print the licence of every source");
   add_anthropometry(head, h.get());
   head->footer(kPointsHelp);
-  head->callback([h] { bake_head(*h); });
+  on_run(head, [h] { bake_head(*h); });
   auto p = std::make_shared<BakeArgs>();
   add_bake_font(*cmd);
   CLI::App* points = cmd->add_subcommand("feature-points",
                                          "A picture of a recipe's face with all points numbered");
-  points->add_option("recipe", p->recipe, "RECIPE.toml")->required();
-  points->add_option("-o,--out", p->out, "OUT.png")->required();
+  reads(points->add_option("recipe", p->recipe, "RECIPE.toml")->required());
+  writes(points->add_option("-o,--out", p->out, "OUT.png")->required(), {".png"});
   points->add_option("--base", p->base, "Folder of the base human");
   points->footer(
       "example: caryatid-tool bake feature-points assets/characters/woman.toml -o points.png");
-  points->callback([p] { draw_feature_points(*p); });
+  on_run(points, [p] { draw_feature_points(*p); });
 }
 
 }  // namespace caryatid::tool

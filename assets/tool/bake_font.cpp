@@ -1,11 +1,12 @@
 // caryatid-tool bake font: free fonts to the glyphs that captions are drawn with.
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 
+#include "assets/bake/files/files.h"
 #include "assets/bake/font/font.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/numbers.h"
 
 namespace caryatid::tool {
 namespace {
@@ -22,10 +23,7 @@ void bake_font(FontArgs& a) {
       a.request.files.push_back(std::string("/usr/share/fonts/truetype/noto/") + name + ".ttf");
   bake::FontReport report;
   const std::vector<std::byte> block = bake::bake_font(a.request, &report);
-  std::ofstream file(a.out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(block.data()),
-             static_cast<std::streamsize>(block.size()));
-  if (!file.flush()) throw std::runtime_error(a.out + ": can't be written; name another file");
+  bake::write_file(a.out, {reinterpret_cast<const char*>(block.data()), block.size()});
   std::printf("%zu glyphs for %zu code points, atlas %.0f %% full, %zu bytes\n", report.glyphs,
               report.code_points, 100.0 * report.atlas_filled, block.size());
 }
@@ -35,14 +33,14 @@ void bake_font(FontArgs& a) {
 void add_bake_font(CLI::App& bake_command) {
   CLI::App* cmd = bake_command.add_subcommand("font", "Glyphs for captions, from free fonts");
   auto a = std::make_shared<FontArgs>();
-  cmd->add_option("fonts", a->request.files,
-                  "FONT.ttf ..., each for what those before it lack (default: Noto Sans, Noto Sans "
-                  "Hebrew, Noto Sans Arabic)");
-  cmd->add_option("-o,--out", a->out, "OUT.font")->required();
+  reads(cmd->add_option("fonts", a->request.files,
+                        "FONT.ttf ..., each for what those before it lack (default: Noto Sans, "
+                        "Noto Sans Hebrew, Noto Sans Arabic)"));
+  writes(cmd->add_option("-o,--out", a->out, "OUT.font")->required());
   cmd->add_option("--em", a->request.em_px, "Size of the distance field in pixels (default 30)")
-      ->check(CLI::Range(12, 64));
+      ->check(number_from(12, 64));
   cmd->footer("example: caryatid-tool bake font -o firmware-app/builtin_font.pack");
-  cmd->callback([a] { bake_font(*a); });
+  on_run(cmd, [a] { bake_font(*a); });
 }
 
 }  // namespace caryatid::tool

@@ -3,7 +3,10 @@
 #include <filesystem>
 
 #include "assets/tool/animated_png.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/numbers.h"
+#include "assets/tool/progress.h"
 #include "assets/tool/speech_sheet.h"
 
 namespace caryatid::tool {
@@ -11,7 +14,7 @@ namespace {
 
 struct ClipArgs {
   VoiceJob voice;
-  std::string pack, mood, out;
+  std::string pack, emotion, out;
   std::uint32_t size = 320, fps = 15;
 };
 
@@ -42,13 +45,17 @@ void draw_caption(const Spoken& spoken, const std::string& text, std::int32_t ti
 
 void clip(const ClipArgs& a) {
   constexpr std::uint32_t kCaption = 48;
+  check_text("--text", a.voice.text);
+  SpeechShot shot;
+  if (!a.emotion.empty()) shot.mood = emotion_named(a.emotion);
   Studio studio(a.pack, a.size, a.size);
   const Spoken spoken = speak(a.voice);
   std::vector<Picture> frames;
-  SpeechShot shot;
-  if (!a.mood.empty()) shot.mood = emotion_named(a.mood);
+  Progress progress;
   const double step_ms = 1000.0 / a.fps;
   for (double t = 0.0; t < spoken.end_ms + 300.0; t += step_ms) {
+    progress.step("frame", frames.size(),
+                  static_cast<std::size_t>((spoken.end_ms + 300.0) / step_ms));
     shot.time_ms = static_cast<std::int32_t>(t);
     Picture frame(a.size, a.size + kCaption, 0);
     paste(speech_picture(spoken, shot, &studio), 0, 0, &frame);
@@ -65,16 +72,16 @@ void clip(const ClipArgs& a) {
 void add_clip(CLI::App& app) {
   auto a = std::make_shared<ClipArgs>();
   CLI::App* cmd = app.add_subcommand("clip", "A speaking person as an animated PNG");
-  cmd->add_option("--pack", a->pack, "The character")->required();
+  reads(cmd->add_option("--pack", a->pack, "The character")->required());
   cmd->add_option("--text", a->voice.text, "What is said, UTF-8")->required();
   cmd->add_option("--language", a->voice.language, "Its language (default en)");
-  cmd->add_option("--mood", a->mood, "joy, sadness ... or joy:0.7 (default calm)");
+  cmd->add_option("--emotion", a->emotion, "joy, sadness ... or joy:0.7 (default calm)");
   cmd->add_option("--size", a->size, "Pixels of its width (default 320)")
-      ->check(CLI::Range(64, 800));
-  cmd->add_option("--fps", a->fps, "Frames a second (default 15)")->check(CLI::Range(5, 30));
-  cmd->add_option("-o,--out", a->out, "OUT.png")->required();
+      ->check(number_from(64, 800));
+  cmd->add_option("--fps", a->fps, "Frames a second (default 15)")->check(number_from(5, 30));
+  writes(cmd->add_option("-o,--out", a->out, "OUT.png")->required(), {".png"});
   cmd->footer("example: caryatid-tool clip --pack woman.pack --text \"Welcome!\" -o welcome.png");
-  cmd->callback([a] { clip(*a); });
+  on_run(cmd, [a] { clip(*a); });
 }
 
 }  // namespace caryatid::tool

@@ -3,17 +3,22 @@
 #include <memory>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
 #include "assets/bake/stream/clip_files.h"
 #include "assets/bake/stream/epf.h"
 #include "assets/bake/stream/head_error.h"
 #include "assets/bake/stream/rate_plot.h"
 #include "assets/bake/stream/talking_track.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/numbers.h"
 
 namespace caryatid::tool {
 namespace {
 
 using bake::AnimationClip;
+
+constexpr double kNoLimit = 1000000;  // kbit/s: the rate is reported only.
 
 struct FbaArgs {
   std::vector<std::string> in;
@@ -28,13 +33,8 @@ struct FbaArgs {
   }
 };
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 void print_faults(const std::string& path, const bake::FbaReport& report) {
-  for (const std::string& fault : report.faults)
-    std::fprintf(stderr, "caryatid-tool: %s: %s\n", path.c_str(), fault.c_str());
+  for (const std::string& fault : report.faults) warn(path + ": " + fault);
 }
 
 void info(const FbaArgs& a) {
@@ -69,10 +69,16 @@ void decode(const FbaArgs& a) {
   print_faults(a.in.front(), report);
   if (clip.size() == 0)
     throw std::runtime_error(a.in.front() + ": no plane could be decoded; give an .fba stream");
-  const bool named = ends_with(a.out, ".fap") || ends_with(a.out, ".bap");
-  const std::string stem = named ? a.out.substr(0, a.out.size() - 4) : a.out;
-  if (!clip.face.empty()) bake::write_fap(clip, stem + ".fap");
-  if (!clip.body.empty()) bake::write_bap(clip, stem + ".bap");
+  const bool face = !clip.face.empty(), body = !clip.body.empty();
+  const bool fap = a.out.ends_with(".fap"), bap = a.out.ends_with(".bap");
+  if (!fap && !bap) throw UsageError("--out " + a.out + ": name OUT.fap or OUT.bap");
+  if ((bap && !body) || (fap && !face))
+    throw std::runtime_error(a.in.front() + (body ? ": has a body and no face; name OUT.bap"
+                                                  : ": has a face and no body; name OUT.fap"));
+  const std::string stem = a.out.substr(0, a.out.size() - 4);
+  claim(a.in, {stem + ".fap", stem + ".bap"});
+  if (face) bake::write_fap(clip, stem + ".fap");
+  if (body) bake::write_bap(clip, stem + ".bap");
 }
 
 // The body takes what the face leaves: the finest steps that fit.
@@ -112,13 +118,13 @@ void encode(const FbaArgs& a) {
     const auto every = static_cast<std::size_t>(a.intra_every);
     stream::set_masks(clip.view(every), &settings);
     stream::set_ranges(clip.view(every), &settings);
-    if (a.kbps > 0.0) {
+    if (a.kbps > 0.0 && a.kbps < kNoLimit) {
       settings.repeat_ranges = false;
       fit_rate(a, clip.view(every), &settings);
     }
     bytes = bake::encode_fba(clip, every, settings);
   }
-  bake::write_bytes(a.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  bake::write_file(a.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   bake::FbaReport report;
   const AnimationClip back = bake::read_fba(a.out, {a.quantisers()}, &report);
   print_faults(a.out, report);
@@ -157,14 +163,14 @@ void rate(const FbaArgs& a) {
   for (const bake::RatePoint& p : points)
     std::printf("%6.3f  %7.3f  %4zu  %7.3f  %8.3f\n", p.kbit_per_s, static_cast<double>(p.step_mm),
                 p.fap_count, p.error.mean_mm, p.error.p99_mm);
-  if (!a.plot.empty()) bake::write_bytes(a.plot, bake::plot_rates(points));
+  if (!a.plot.empty()) bake::write_file(a.plot, bake::plot_rates(points));
 }
 
 CLI::App* command(CLI::App* fba, const std::shared_ptr<FbaArgs>& a, const char* name,
                   const char* what, void (*work)(const FbaArgs&), const char* example) {
   CLI::App* cmd = fba->add_subcommand(name, what);
   cmd->footer(std::string("example: caryatid-tool fba ") + example);
-  cmd->callback([a, work] { work(*a); });
+  on_run(cmd, [a, work] { work(*a); });
   return cmd;
 }
 
@@ -177,47 +183,54 @@ void add_fba(CLI::App& app) {
 
   CLI::App* cmd =
       command(fba, a, "info", "What is in a stream, and its rate", info, "info hello.fba");
-  cmd->add_option("in", a->in, "IN.fba")->required();
+  reads(cmd->add_option("in", a->in, "IN.fba")->required());
   cmd->add_flag("--standard-steps", a->standard_steps, "Body steps of the standard, not visage's");
 
   cmd = command(fba, a, "decode", "Stream to .fap and .bap text", decode,
                 "decode hello.fba -o hello.fap");
-  cmd->add_option("in", a->in, "IN.fba")->required()->expected(1);
-  cmd->add_option("-o,--out", a->out, "OUT.fap; a body goes to OUT.bap")->required();
+  reads(cmd->add_option("in", a->in, "IN.fba")->required()->expected(1));
+  writes(cmd->add_option("-o,--out", a->out, "OUT.fap; a body goes to OUT.bap")->required(),
+         {".fap", ".bap"});
   cmd->add_flag("--standard-steps", a->standard_steps, "Body steps of the standard, not visage's");
 
   cmd = command(fba, a, "encode", "Text to a stream; prints its rate", encode,
                 "encode talk.fap -o talk.fba --kbps 2");
-  cmd->add_option("in", a->in, "IN.fap, IN.bap or both")->required()->expected(1, 2);
-  cmd->add_option("-o,--out", a->out, "OUT.fba")->required();
-  cmd->add_option("--quant", a->quant, "Face quantiser (1)")->check(CLI::Range(0, 31));
+  reads(cmd->add_option("in", a->in, "IN.fap, IN.bap or both")->required()->expected(1, 2));
+  writes(cmd->add_option("-o,--out", a->out, "OUT.fba")->required(), {".fba"});
+  cmd->add_option("--quant", a->quant, "Face quantiser (1)")->check(number_from(0, 31));
   cmd->add_option("--bap-quant", a->bap_quant, "Body quantiser index (1)")
-      ->check(CLI::Range(0, 31));
+      ->check(number_from(0, 31));
   cmd->add_option("--fps", a->fps, "Frames a second; the text is resampled")
-      ->check(CLI::Range(0.1, 255.0));
+      ->check(number_from(0.1, 255.0));
   cmd->add_option("--kbps", a->kbps, "Report the rate; with a number, keep to it")
       ->expected(0, 1)
-      ->default_str("0");
+      ->default_str("1000000")  // kNoLimit
+      ->check(number_from(0.01, kNoLimit));
   cmd->add_option("--intra", a->intra_every, "Frames between intra planes (0: the first only)")
-      ->check(CLI::Range(0, 100000));
-  cmd->add_option("--epf", a->epf, "Encoder parameter file: says everything plane by plane");
+      ->check(number_from(0, 100000));
+  reads(cmd->add_option("--epf", a->epf,
+                        "Encoder parameter file, as of visage: words and numbers that say plane by "
+                        "plane what is sent, as FBM 1 ISI 1 FFR 0 (face, intra, frame 0)"));
   cmd->add_flag("--standard-steps", a->standard_steps, "Body steps of the standard, not visage's");
   cmd->add_flag("--no-start-codes", a->no_start_codes, "None before intra planes");
 
   cmd = command(fba, a, "track", "A talking track for trying faces and streams", track,
                 "track -o talk.fap --seconds 60");
-  cmd->add_option("-o,--out", a->out, "OUT.fap")->required();
-  cmd->add_option("--seconds", a->seconds, "Length (60)")->check(CLI::Range(1.0, 3600.0));
-  cmd->add_option("--fps", a->fps, "Frames a second (25)")->check(CLI::Range(1.0, 120.0));
+  writes(cmd->add_option("-o,--out", a->out, "OUT.fap")->required(), {".fap"});
+  cmd->add_option("--seconds", a->seconds, "Length (60)")->check(number_from(1.0, 3600.0));
+  cmd->add_option("--fps", a->fps, "Frames a second (25)")->check(number_from(1.0, 120.0));
   cmd->add_option("--seed", a->seed, "Another number, another track (1)");
 
   cmd =
       command(fba, a, "rate", "What error each rate costs", rate, "rate talk.fap --plot rate.svg");
-  cmd->add_option("in", a->in, "IN.fap")->required()->expected(1);
-  cmd->add_option("--fps", a->fps, "Frames a second; the text is resampled");
-  cmd->add_option("--intra", a->intra_every, "Frames between intra planes (0: the first only)");
-  cmd->add_option("--pack", a->pack, "Measure on this head (default: estimate by adult means)");
-  cmd->add_option("--plot", a->plot, "OUT.svg");
+  reads(cmd->add_option("in", a->in, "IN.fap")->required()->expected(1));
+  cmd->add_option("--fps", a->fps, "Frames a second; the text is resampled")
+      ->check(number_from(0.1, 255.0));
+  cmd->add_option("--intra", a->intra_every, "Frames between intra planes (0: the first only)")
+      ->check(number_from(0, 100000));
+  reads(cmd->add_option("--pack", a->pack,
+                        "Measure on this head (default: estimate by adult means)"));
+  writes(cmd->add_option("--plot", a->plot, "OUT.svg"), {".svg"});
 }
 
 }  // namespace caryatid::tool

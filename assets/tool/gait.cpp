@@ -1,16 +1,17 @@
 // caryatid-tool gait: walks from moods, and moods from walks.
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "assets/bake/gait/analyse.h"
 #include "assets/bake/gait/figure.h"
 #include "assets/bake/gait/measure.h"
 #include "assets/bake/gait/settled_walk.h"
+#include "assets/tool/bap_axes.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_style_named.h"
+#include "assets/tool/numbers.h"
 #include "assets/tool/text_file.h"
 #include "core/stream/bap_text.h"
 
@@ -25,7 +26,7 @@ struct SynthArgs {
 };
 struct AnalyseArgs {
   std::string in, report, plot;
-  bool plain_axes = false;
+  std::string bap_axes = "signed";
 };
 
 // Steady walking along +Z from a heel strike of the right foot, at the origin.
@@ -88,7 +89,8 @@ void synth(const SynthArgs& a) {
   }
 }
 
-bake::Motion motion_of_bap(const std::string& text, const std::string& path, bool plain_axes) {
+bake::Motion motion_of_bap(const std::string& text, const std::string& path,
+                           body::BapConvention axes) {
   stream::BapTextReader reader(text);
   const auto check = [&](Status status, const char* what) {
     if (!status.ok())
@@ -103,12 +105,10 @@ bake::Motion motion_of_bap(const std::string& text, const std::string& path, boo
     if (status.code == Code::not_ready) break;
     check(status, "bad frame");
     frames.push_back(frame);
-    if (frames.size() > 1'000'000)
-      throw std::runtime_error(path + ":1: more than a million frames");
+    if (frames.size() > 1'000'000) throw std::runtime_error(path + ": more than a million frames");
   }
-  return bake::motion_of(
-      body::upright_skeleton(), frames, static_cast<float>(reader.header().frames_per_second),
-      plain_axes ? body::BapConvention::plain_axes : body::BapConvention::signed_axes);
+  return bake::motion_of(body::upright_skeleton(), frames,
+                         static_cast<float>(reader.header().frames_per_second), axes);
 }
 
 void analyse(const AnalyseArgs& a) {
@@ -119,15 +119,15 @@ void analyse(const AnalyseArgs& a) {
   } else if (a.in.ends_with(".csv")) {
     motion = bake::motion_of_csv(text, a.in);
   } else if (a.in.ends_with(".bap")) {
-    motion = motion_of_bap(text, a.in, a.plain_axes);
+    motion = motion_of_bap(text, a.in, bap_axes_named(a.bap_axes));
   } else {
-    throw std::runtime_error(a.in + ":1: unknown kind of file; give a .bvh, .bap or .csv");
+    throw UsageError(a.in + ": unknown kind of file; give a .bvh, .bap or .csv");
   }
   bake::GaitAnalysis analysis;
   try {
     analysis = bake::analyse_gait(motion);
   } catch (const std::runtime_error& e) {
-    throw std::runtime_error(a.in + ":1: " + e.what());
+    throw std::runtime_error(a.in + ": " + e.what());
   }
   const std::string report = bake::report_json(analysis);
   if (a.report.empty())
@@ -148,32 +148,35 @@ void add_gait(CLI::App& app) {
   gait->require_subcommand(1);
   auto s = std::make_shared<SynthArgs>();
   CLI::App* synth_cmd = gait->add_subcommand("synth", "A steady walk as a .bap text");
-  synth_cmd->add_option("--mood", s->mood,
-                        "normal bored happy sad angry hurried tired proud, or A,E on the "
-                        "activation-evaluation plane (-1..1)");
-  synth_cmd->add_flag("--run", s->run, "The run in place of a mood's walk");
+  CLI::Option* mood =
+      synth_cmd->add_option("--mood", s->mood,
+                            "normal bored happy sad angry hurried tired proud, or A,E on the "
+                            "activation-evaluation plane (-1..1)");
+  synth_cmd->add_flag("--run", s->run, "The run in place of a mood's walk")->excludes(mood);
   synth_cmd->add_flag("--linear", s->linear, "Linear interpolation of the key poses");
   synth_cmd->add_option("--frames", s->frames, "How many frames (default 64)")
-      ->check(CLI::Range(1, 100000));
+      ->check(number_from(1, 100000));
   synth_cmd->add_option("--fps", s->fps, "Frames a second (default 30)")
-      ->check(CLI::Range(5.0f, 240.0f));
-  synth_cmd->add_option("--plot", s->plot, "Joint curves beside the norm: OUT.svg");
-  synth_cmd->add_option("--strip", s->strip, "16 stick figures, side and front: OUT.svg");
-  synth_cmd->add_option("-o,--out", s->out, "OUT.bap")->required();
+      ->check(number_from(5, 240));
+  writes(synth_cmd->add_option("--plot", s->plot, "Joint curves beside the norm: OUT.svg"),
+         {".svg"});
+  writes(synth_cmd->add_option("--strip", s->strip, "16 stick figures, side and front: OUT.svg"),
+         {".svg"});
+  writes(synth_cmd->add_option("-o,--out", s->out, "OUT.bap")->required(), {".bap"});
   synth_cmd->footer("example: caryatid-tool gait synth --mood sad --frames 64 -o sad.bap");
-  synth_cmd->callback([s] { synth(*s); });
+  on_run(synth_cmd, [s] { synth(*s); });
 
   auto a = std::make_shared<AnalyseArgs>();
   CLI::App* analyse_cmd =
       gait->add_subcommand("analyse", "Cycles, phases, mood and parametric form of a capture");
-  analyse_cmd->add_option("in", a->in, "IN.bvh, IN.bap or IN.csv")->required();
-  analyse_cmd->add_option("--report", a->report, "OUT.json (default: stdout)");
-  analyse_cmd->add_option("--plot", a->plot, "Measured and resynthesised curves: OUT.svg");
-  analyse_cmd->add_flag("--plain-axes", a->plain_axes,
-                        ".bap files whose rotations are all about the positive axes");
+  reads(analyse_cmd->add_option("in", a->in, "IN.bvh, IN.bap or IN.csv")->required());
+  writes(analyse_cmd->add_option("--report", a->report, "OUT.json (default: stdout)"), {".json"});
+  writes(analyse_cmd->add_option("--plot", a->plot, "Measured and resynthesised curves: OUT.svg"),
+         {".svg"});
+  add_bap_axes(analyse_cmd, &a->bap_axes);
   analyse_cmd->footer(
       "example: caryatid-tool gait analyse walk.bvh --report walk.json --plot walk.svg");
-  analyse_cmd->callback([a] { analyse(*a); });
+  on_run(analyse_cmd, [a] { analyse(*a); });
 }
 
 }  // namespace caryatid::tool

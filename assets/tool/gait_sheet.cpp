@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "assets/bake/gait/settled_walk.h"
+#include "assets/tool/progress.h"
 #include "assets/tool/soles.h"
 
 namespace caryatid::tool {
@@ -141,8 +142,10 @@ GaitCells gait_poses(Studio* studio) {
   const body::Skeleton& skeleton = studio->person().skeleton();
   const auto soles = skinned_soles(studio->person());
   GaitCells cells;
+  Progress progress;
   for (int m = 0; m < body::kGaitMoodCount; ++m) {
     const char* name = body::gait_mood_name(body::GaitMood(m));
+    progress.step(std::string("walk ") + name);
     SettledWalk walk(skeleton, body::gait_style(body::GaitMood(m)));
     for (int p = 0; p < 4; ++p) {
       // The right leg stands: its phase is the left one's and a half.

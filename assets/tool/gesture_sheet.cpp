@@ -1,5 +1,6 @@
 #include "assets/tool/gesture_sheet.h"
 
+#include "assets/tool/progress.h"
 #include "core/body/gesture.h"
 #include "core/body/walker.h"
 
@@ -41,9 +42,11 @@ GaitCells gesture_poses(Studio* studio) {
                              {" while walking", true, {0, 0, 1}},
                              {" while walking, from behind", true, {0.5f, 0, -0.87f}}};
   GaitCells cells;
+  Progress progress;
   for (int k = 1; k <= static_cast<int>(body::GestureKind::beat); ++k)
     for (const Look& look : kLooks) {
       const auto kind = static_cast<body::GestureKind>(k);
+      progress.step(std::string("gesture ") + body::gesture_name(kind) + look.name);
       Pose pose;
       pose.baps = at_its_height(skeleton, kind, look.walking);
       scene::Framing framing;

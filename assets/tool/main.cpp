@@ -2,12 +2,35 @@
 #include <cstdio>
 #include <exception>
 
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+
+namespace {
+
+// The sub-command that was called, with those above it: its help has the options.
+std::string command_of(const CLI::App& app) {
+  std::string name = "caryatid-tool";
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    name += " " + at->get_name();
+  }
+  return name;
+}
+
+int refuse(const CLI::App& app, const char* what) {
+  using caryatid::tool::printable;
+  std::fprintf(stderr, "caryatid-tool: %s; see %s --help\n", printable(what).c_str(),
+               command_of(app).c_str());
+  return 2;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"caryatid-tool: makes and looks at what a Caryatid kiosk shows."};
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "Help of every subcommand");
+  app.set_version_flag("--version", "caryatid-tool " CARYATID_VERSION);
   using namespace caryatid::tool;
   add_bake(app);
   add_clip(app);
@@ -24,10 +47,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "caryatid-tool: %s; see caryatid-tool --help\n", e.what());
-    return 2;
+    return refuse(app, e.what());
+  } catch (const UsageError& e) {
+    return refuse(app, e.what());
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "caryatid-tool: %s\n", e.what());
+    warn(e.what());
     return 1;
   }
   return 0;

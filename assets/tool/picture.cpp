@@ -6,6 +6,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
+
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STB_TRUETYPE_IMPLEMENTATION
@@ -58,10 +60,17 @@ double to_linear(std::uint8_t v) { return std::pow(v / 255.0, 2.2); }
 
 void write_png(const Picture& picture, const std::string& path) {
   const auto w = static_cast<int>(picture.width), h = static_cast<int>(picture.height);
-  const bool written = path.ends_with(".jpg")
-                           ? stbi_write_jpg(path.c_str(), w, h, 3, picture.rgb.data(), 88) != 0
-                           : stbi_write_png(path.c_str(), w, h, 3, picture.rgb.data(), 3 * w) != 0;
-  if (!written) throw std::runtime_error(path + ": can't be written; name a folder that exists");
+  std::string bytes;
+  const auto add = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data),
+                                          static_cast<std::size_t>(size));
+  };
+  const bool made =
+      path.ends_with(".jpg")
+          ? stbi_write_jpg_to_func(add, &bytes, w, h, 3, picture.rgb.data(), 88) != 0
+          : stbi_write_png_to_func(add, &bytes, w, h, 3, picture.rgb.data(), 3 * w) != 0;
+  if (!made) throw std::runtime_error(path + ": no memory for the picture; make it smaller");
+  bake::write_file(path, bytes);
 }
 
 Picture halved(const Picture& p) {

@@ -1,11 +1,9 @@
 // caryatid-tool plot: metrics and FAP files as SVG.
-#include <fstream>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
 
 #include "assets/bake/plot/error_plot.h"
 #include "assets/bake/plot/metrics_plot.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/text_file.h"
 
@@ -46,10 +44,10 @@ CLI::App* add_kind(CLI::App& plot, const char* name, const char* what, void (*ru
                    int most) {
   auto args = std::make_shared<PlotArgs>();
   CLI::App* kind = plot.add_subcommand(name, what);
-  kind->add_option("IN", args->in, "File to plot")->required()->expected(1, most);
-  kind->add_option("-o,--out", args->out, "SVG file to write")->required();
+  reads(kind->add_option("IN", args->in, "File to plot")->required()->expected(1, most));
+  writes(kind->add_option("-o,--out", args->out, "SVG file to write")->required(), {".svg"});
   kind->add_option("--title", args->title, "Title instead of the file's name");
-  kind->callback([args, run] { run(*args); });
+  on_run(kind, [args, run] { run(*args); });
   return kind;
 }
 

@@ -1,12 +1,15 @@
 // caryatid-tool render: one picture of a pack's person.
+#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
 #include "assets/bake/gait/settled_walk.h"
+#include "assets/tool/bap_axes.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_style_named.h"
+#include "assets/tool/numbers.h"
 #include "assets/tool/studio.h"
 #include "core/body/bap_table.h"
 #include "core/body/joint_limits.h"
@@ -31,31 +34,37 @@ struct RenderArgs {
 // "FILE@7" is frame 7 of FILE; without it the first.
 template <class Reader, class Frame>
 Frame frame_of(const std::string& text) {
-  const std::size_t at = text.rfind('@');
-  const std::string path = text.substr(0, at);
-  const int wanted = at == std::string::npos ? 0 : std::atoi(text.c_str() + at + 1);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": can't be read; name a file that can");
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const FrameName name = frame_name(text);
+  const std::string content = bake::read_file(name.path);
   Reader reader(content);
   Frame frame;
-  for (int i = 0; i <= wanted; ++i)
-    if (const Status s = reader.next(&frame); !s.ok())
-      throw std::runtime_error(path + ":" + std::to_string(reader.line()) + ": " +
-                               stream::describe_text_fault(s));
+  for (std::size_t i = 0; i <= name.frame; ++i) {
+    const Status s = reader.next(&frame);
+    if (s.ok()) continue;
+    if (i > 0 && s.detail == static_cast<std::uint16_t>(stream::TextFault::end_of_text))
+      throw std::runtime_error(name.path + ": has " + std::to_string(i) +
+                               " frames; name one of 0.." + std::to_string(i - 1));
+    throw std::runtime_error(name.path + ":" + std::to_string(reader.line()) + ": " +
+                             stream::describe_text_fault(s));
+  }
   return frame;
 }
+
+// No stream holds more.
+constexpr double kMostFap = 32768;
 
 void set_faps(const std::string& text, face::FapFrame* out) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
-    int fap = 0, used = 0;
-    float value = 0.0f;
     const std::string item = text.substr(at, end - at);
-    if (std::sscanf(item.c_str(), "%d=%f%n", &fap, &value, &used) != 2 ||
-        used != static_cast<int>(item.size()) || fap < 3 || fap > face::kFapCount)
-      throw std::runtime_error("--set " + item + ": wanted FAP=VALUE with FAP 3..68");
-    out->set(fap, value);
+    const std::size_t equals = std::min(item.find('='), item.size());
+    const auto fap = number_within(item.substr(0, equals), 3, face::kFapCount);
+    const auto value =
+        number_within(item.substr(std::min(equals + 1, item.size())), -kMostFap, kMostFap);
+    if (!fap || !value || *fap != std::floor(*fap))
+      throw UsageError("--set " + item +
+                       ": wanted FAP=VALUE with FAP 3..68 and VALUE -32768..32768");
+    out->set(static_cast<int>(*fap), static_cast<float>(*value));
     at = end + 1;
   }
 }
@@ -69,12 +78,6 @@ body::BapFrame walking(const body::Skeleton& skeleton, const std::string& mood, 
   return frame;
 }
 
-body::BapConvention axes_named(const std::string& name) {
-  if (name == "plain") return body::BapConvention::plain_axes;
-  return name == "reversed" ? body::BapConvention::signed_axes_reversed
-                            : body::BapConvention::signed_axes;
-}
-
 void keep_joints(Pose* pose) {
   const body::LimitReport limits = body::limit_joints(pose->baps, pose->bap_axes);
   if (limits.bitten > 0)
@@ -83,10 +86,17 @@ void keep_joints(Pose* pose) {
                 static_cast<double>(limits.worst_excess_rad) * 57.29578);
 }
 
+std::pair<std::uint32_t, std::uint32_t> size_named(const std::string& text) {
+  const std::size_t x = std::min(text.find('x'), text.size());
+  const auto w = number_within(text.substr(0, x), 16, 2048);
+  const auto h = number_within(text.substr(std::min(x + 1, text.size())), 16, 2048);
+  if (!w || !h || *w != std::floor(*w) || *h != std::floor(*h))
+    throw UsageError("--size " + text + ": wanted WIDTHxHEIGHT, 16..2048 each");
+  return {static_cast<std::uint32_t>(*w), static_cast<std::uint32_t>(*h)};
+}
+
 void render(const RenderArgs& a) {
-  unsigned w = 0, h = 0;
-  if (std::sscanf(a.size.c_str(), "%ux%u", &w, &h) != 2 || w < 16 || h < 16 || w > 2048 || h > 2048)
-    throw std::runtime_error("--size " + a.size + ": wanted WIDTHxHEIGHT, 16..2048 each");
+  const auto [w, h] = size_named(a.size);
   Pose pose;
   pose.view = view_named(a.view);
   pose.wire = a.wire;
@@ -103,9 +113,10 @@ void render(const RenderArgs& a) {
   set_faps(a.set, &pose.faps);
   if (!a.bap.empty()) {
     pose.baps = frame_of<stream::BapTextReader, body::BapFrame>(a.bap);
-    pose.bap_axes = axes_named(a.bap_axes);
+    pose.bap_axes = bap_axes_named(a.bap_axes);
   }
   if (a.joint_limits) keep_joints(&pose);
+  if (!a.mood.empty()) (void)style_named(a.mood);  // A wrong name is said before the pack is read.
   Studio studio(a.pack, w, h);
   if (!a.mood.empty()) pose.baps = walking(studio.person().skeleton(), a.mood, a.phase);
   write_png(studio.picture(pose), a.out);
@@ -116,27 +127,27 @@ void render(const RenderArgs& a) {
 void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArgs>();
   CLI::App* cmd = app.add_subcommand("render", "A picture of the person of a pack");
-  cmd->add_option("--pack", a->pack, "The character")->required();
+  reads(cmd->add_option("--pack", a->pack, "The character")->required());
   cmd->add_option("--emotion", a->emotion, "NAME or NAME:0..1");
-  cmd->add_option("--fap", a->fap, "FILE or FILE@FRAME of a .fap text");
+  reads_frame(cmd->add_option("--fap", a->fap, "FILE or FILE@FRAME of a .fap text, from 0"));
   cmd->add_option("--set", a->set, "FAP=VALUE,... in the FAP's own unit");
-  cmd->add_option("--viseme", a->viseme, "0..14")->check(CLI::Range(0, 14));
-  cmd->add_option("--bap", a->bap, "FILE or FILE@FRAME of a .bap text");
-  cmd->add_option("--bap-axes", a->bap_axes, "How its BAPs turn joints: signed reversed plain")
-      ->check(CLI::IsMember({"signed", "reversed", "plain"}));
+  cmd->add_option("--viseme", a->viseme, "0..14")->check(number_from(0, 14));
+  reads_frame(cmd->add_option("--bap", a->bap, "FILE or FILE@FRAME of a .bap text, from 0"));
+  add_bap_axes(cmd, &a->bap_axes);
   cmd->add_flag("--joint-limits", a->joint_limits,
                 "Keep joints within human limits and say which were exceeded");
   cmd->add_option("--mood", a->mood,
-                  "Walking: normal bored happy sad angry hurried tired proud run");
+                  "Walking: normal bored happy sad angry hurried tired proud run, or A,E on the "
+                  "activation-evaluation plane (-1..1)");
   cmd->add_option("--phase", a->phase, "Of the left leg's walking cycle, 0..1")
-      ->check(CLI::Range(0.0f, 1.0f));
+      ->check(number_from(0, 1));
   cmd->add_option("--view", a->view, "front left right three-quarter bust body feet");
   cmd->add_option("--lod", a->lod, "Triangles: N of the whole person, or head=N (default all)");
   cmd->add_flag("--wire", a->wire, "The edges of the triangles, hidden ones left out");
   cmd->add_option("--size", a->size, "WIDTHxHEIGHT (default 800x800)");
-  cmd->add_option("-o,--out", a->out, "OUT.png")->required();
+  writes(cmd->add_option("-o,--out", a->out, "OUT.png")->required(), {".png"});
   cmd->footer("example: caryatid-tool render --pack woman.pack --emotion joy:0.7 -o joy.png");
-  cmd->callback([a] { render(*a); });
+  on_run(cmd, [a] { render(*a); });
 }
 
 }  // namespace caryatid::tool

@@ -8,10 +8,13 @@
 #include "assets/bake/mesh_io/mesh_io.h"
 #include "assets/bake/mesh_io/repair.h"
 #include "assets/bake/simplify/history.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
 #include "assets/tool/gait_sheet.h"
 #include "assets/tool/gait_style_named.h"
 #include "assets/tool/gesture_sheet.h"
+#include "assets/tool/numbers.h"
+#include "assets/tool/progress.h"
 #include "assets/tool/raster.h"
 #include "assets/tool/speech_sheet.h"
 #include "assets/tool/studio.h"
@@ -117,9 +120,11 @@ Pose pose_of(const Studio& studio, int fap, float value) {
 
 Cells faps(Studio* studio) {
   Cells cells;
+  Progress progress;
   const face::FapLimits& limits = studio->person().limits();
   for (int fap = 3; fap <= face::kFapCount; ++fap) {
     const auto n = static_cast<std::size_t>(fap);
+    progress.step("FAP", n, face::kFapCount);
     for (const float end : {limits.low[n], limits.high[n]}) {
       if (end == 0.0f) continue;
       // The ends of the working range: the table reaches a little further.
@@ -172,10 +177,12 @@ Cells lods(Studio* studio, std::uint32_t side) {
 Cells mesh_lods(const std::string& path, std::uint32_t side) {
   bake::RepairReport repairs;
   const bake::Surface original = bake::repair_surface(bake::read_mesh(path), &repairs);
-  if (original.triangles.empty()) throw bake::MeshError(path + ":1: no face is left after repair");
+  if (original.triangles.empty()) throw bake::MeshError(path + ": no face is left after repair");
   const RasterView view = whole_of(original, 0.5, 0.5);
   bake::CollapseOptions options;
   options.target_triangles = 0;
+  Progress progress;
+  progress.step("simplifying");
   const bake::History history = bake::record_history(original, options);
   bake::HistoryCursor cursor(history);
   Cells cells;
@@ -212,6 +219,7 @@ void sheet(const SheetArgs& a) {
     write_png(grid(levels.pictures, levels.captions, 4), a.out);
     return;
   }
+  if (a.what == "speech") check_text("--text", a.voice.text);
   Studio studio(a.pack, a.cell, a.cell);
   if (a.what == "speech") {
     write_png(speech_strip(speak(a.voice), a.voice.text, a.cell, &studio), a.out);
@@ -224,7 +232,9 @@ void sheet(const SheetArgs& a) {
   if (a.what == "faps") cells = faps(&studio), columns = 10;
   if (a.what == "gait") {
     // Named moods give the strips of their cycles; none, the key poses of all.
+    Progress progress;
     for (const std::string& mood : a.moods) {
+      progress.step("walk " + mood);
       cells.pictures.push_back(gait_strip(&studio, style_named(mood)));
       cells.captions.push_back(mood);
       columns = 1;
@@ -253,12 +263,13 @@ void add_sheet(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember(
           {"emotions", "visemes", "faps", "lods", "gait", "gestures", "speech", "lips"}));
-  CLI::Option* pack = cmd->add_option("--pack", a->pack, "The character");
-  CLI::Option* mesh = cmd->add_option("--mesh", a->mesh, "lods: any .obj, .off or .ply instead");
+  CLI::Option* pack = reads(cmd->add_option("--pack", a->pack, "The character"));
+  CLI::Option* mesh =
+      reads(cmd->add_option("--mesh", a->mesh, "lods: any .obj, .off or .ply instead"));
   mesh->excludes(pack);
   cmd->add_option("--lod", a->lod, "emotions: triangles, N or head=N (default all)");
   cmd->add_option("--cell", a->cell, "Pixels of a picture (default 400)")
-      ->check(CLI::Range(64, 1024));
+      ->check(number_from(64, 1024));
   cmd->add_option("--mood", a->moods,
                   "gait: strips of these moods (or run), by commas, in place of all key poses")
       ->delimiter(',')
@@ -268,11 +279,11 @@ void add_sheet(CLI::App& app) {
   cmd->add_option("--language", a->voice.language, "speech: its language (default en)");
   cmd->add_option("--shuffle", a->shuffle,
                   "Seed: numbers in place of captions, in random order; the key goes to stdout");
-  cmd->add_option("-o,--out", a->out, "OUT.png")->required();
+  writes(cmd->add_option("-o,--out", a->out, "OUT.png or OUT.jpg")->required(), {".png", ".jpg"});
   cmd->footer("example: caryatid-tool sheet emotions --pack woman.pack -o emotions.png");
-  cmd->callback([a] {
+  on_run(cmd, [a] {
     if (a->pack.empty() && (a->mesh.empty() || a->what != "lods"))
-      throw CLI::ValidationError("sheet", "give --pack PACK, or for lods --mesh FILE");
+      throw UsageError("give --pack PACK, or for lods --mesh FILE");
     sheet(*a);
   });
 }

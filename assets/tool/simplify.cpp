@@ -1,6 +1,4 @@
 // caryatid-tool simplify and history: any mesh, coarser, and back.
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -11,7 +9,10 @@
 #include "assets/bake/simplify/distance.h"
 #include "assets/bake/simplify/error_bound.h"
 #include "assets/bake/simplify/history.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/numbers.h"
+#include "assets/tool/progress.h"
 
 namespace caryatid::tool {
 namespace {
@@ -25,11 +26,17 @@ struct SimplifyArgs {
   double max_error = 0;
 };
 
-void progress(const char* what) {
-  if (isatty(2) != 0) std::fprintf(stderr, "\r\033[K%s", what);
-}
-void progress_done() {
-  if (isatty(2) != 0) std::fprintf(stderr, "\r\033[K");
+// What of a mesh is not carried over: this tool knows positions and faces.
+std::string left_out(const std::string& text, bake::MeshFormat format) {
+  if (format != bake::MeshFormat::obj) return {};
+  std::size_t uvs = 0, normals = 0;
+  for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size()) + 1) {
+    uvs += text.compare(at, 3, "vt ") == 0;
+    normals += text.compare(at, 3, "vn ") == 0;
+  }
+  if (uvs + normals == 0) return {};
+  return "left out: " + std::to_string(uvs) + " texture coordinates, " + std::to_string(normals) +
+         " normals; positions and faces are kept";
 }
 
 // A vertex number a line, counted from 1 as in OBJ; '#' comments.
@@ -61,7 +68,8 @@ nlohmann::json side(const bake::OneSided& d) {
 }
 
 nlohmann::json make_report(const Surface& before, const Surface& after, const Surface& stored,
-                           double seconds, const bake::RepairReport& repairs) {
+                           double seconds, const bake::RepairReport& repairs,
+                           const std::string& lost) {
   const bake::SurfaceFacts a = bake::facts_of(before), b = bake::facts_of(after);
   const bake::SurfaceError e = bake::measure_error(before, after);
   const auto relative = [&](double volume) {
@@ -84,19 +92,24 @@ nlohmann::json make_report(const Surface& before, const Surface& after, const Su
           {"boundary_length", {a.border_length, b.border_length}},
           {"euler", {a.euler, b.euler}},
           {"components", {a.components, b.components}},
-          {"repairs", repairs.text()}};
+          {"repairs", repairs.text()},
+          {"left_out", lost}};
 }
 
 void run_simplify(const SimplifyArgs& args) {
-  const bake::MeshFormat format = bake::format_of(args.out);
-  progress("reading");
+  const bake::MeshFormat format = bake::format_of(args.out), format_in = bake::format_of(args.in);
+  Progress progress;
+  progress.step("reading");
   bake::RepairReport repairs;
-  const Surface original = bake::repair_surface(bake::read_mesh(args.in), &repairs);
-  if (original.triangles.empty()) throw MeshError(args.in + ":1: no face is left after repair");
+  const std::string text = bake::read_file(args.in);
+  const Surface original =
+      bake::repair_surface(bake::parse_mesh(text, format_in, args.in), &repairs);
+  if (original.triangles.empty()) throw MeshError(args.in + ": no face is left after repair");
+  const std::string lost = left_out(text, format_in);
   bake::CollapseOptions options;
   if (!args.lock.empty()) options.locked = read_locks(args.lock, repairs);
   const auto began = std::chrono::steady_clock::now();
-  progress("simplifying");
+  progress.step("simplifying");
   Surface result;
   if (args.history.empty() && args.max_error == 0) {
     options.target_triangles = args.faces;
@@ -105,8 +118,8 @@ void run_simplify(const SimplifyArgs& args) {
     options.target_triangles = args.history.empty() ? args.faces : 0;
     const bake::History history = bake::record_history(original, options);
     if (args.max_error > 0) {
-      const auto watch = [](std::uint32_t faces) {
-        progress(("measuring " + std::to_string(faces) + " faces").c_str());
+      const auto watch = [&progress](std::uint32_t faces) {
+        progress.step("measuring " + std::to_string(faces) + " faces");
       };
       result = bake::coarsest_within(history, original, args.max_error, args.faces, watch);
     } else {
@@ -120,15 +133,14 @@ void run_simplify(const SimplifyArgs& args) {
   const std::string bytes = bake::format_mesh(result, format);
   bake::write_file(args.out, bytes);
   if (!args.report.empty()) {
-    progress("measuring");
+    progress.step("measuring");
     const Surface stored = bake::parse_mesh(bytes, format, args.out);
     bake::write_file(
         args.report,
-        make_report(original, result, stored, seconds.count(), repairs).dump(2) + "\n");
+        make_report(original, result, stored, seconds.count(), repairs, lost).dump(2) + "\n");
   }
-  progress_done();
-  if (!repairs.text().empty())
-    std::fprintf(stderr, "caryatid-tool: %s: %s\n", args.in.c_str(), repairs.text().c_str());
+  for (const std::string& note : {repairs.text(), lost})
+    if (!note.empty()) warn(args.in + ": " + note);
   std::printf("%zu -> %zu faces in %.3f s\n", original.triangles.size(), result.triangles.size(),
               seconds.count());
 }
@@ -154,20 +166,22 @@ void add_simplify(CLI::App& app) {
   auto args = std::make_shared<SimplifyArgs>();
   CLI::App* c = app.add_subcommand("simplify", "Makes a mesh coarser by memoryless edge collapse");
   c->footer("Example: caryatid-tool simplify bunny.obj --faces 2000 -o small.obj --report r.json");
-  c->add_option("IN", args->in, "Mesh: .obj, .off or .ply")->required();
+  reads(c->add_option("IN", args->in, "Mesh: .obj, .off or .ply")->required());
   CLI::Option* faces = c->add_option("--faces", args->faces, "Stop at so many triangles");
   CLI::Option* error =
       c->add_option("--max-error", args->max_error,
                     "Stop before the distance to the original, measured both ways, passes this; in "
                     "units of the mesh. With --faces: whichever comes first");
-  error->check(CLI::PositiveNumber);
-  c->add_option("--lock", args->lock, "Vertices that stay: a number a line, counted from 1");
-  c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required();
-  c->add_option("--history", args->history, "Write the way back, for caryatid-tool history");
-  c->add_option("--report", args->report, "Write figures as JSON");
-  c->callback([args, faces, error] {
+  error->check(number_from(1e-12, 1e12));
+  reads(c->add_option("--lock", args->lock, "Vertices that stay: a number a line, counted from 1"));
+  writes(c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required(),
+         {".obj", ".off", ".ply"});
+  writes(
+      c->add_option("--history", args->history, "Write the way back, for caryatid-tool history"));
+  writes(c->add_option("--report", args->report, "Write figures as JSON"));
+  on_run(c, [args, faces, error] {
     if (faces->count() == 0 && error->count() == 0)
-      throw CLI::ValidationError("simplify", "give --faces N or --max-error E");
+      throw UsageError("give --faces N or --max-error E");
     run_simplify(*args);
   });
 }
@@ -176,10 +190,11 @@ void add_history(CLI::App& app) {
   auto args = std::make_shared<HistoryArgs>();
   CLI::App* c = app.add_subcommand("history", "Gives any level out of a recorded history");
   c->footer("Example: caryatid-tool history bunny.history --faces 5000 -o level.obj");
-  c->add_option("IN", args->in, "From caryatid-tool simplify --history")->required();
+  reads(c->add_option("IN", args->in, "From caryatid-tool simplify --history")->required());
   c->add_option("--faces", args->faces, "At most so many triangles")->required();
-  c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required();
-  c->callback([args] { run_history(*args); });
+  writes(c->add_option("-o,--out", args->out, "Mesh to write: .obj, .off or .ply")->required(),
+         {".obj", ".off", ".ply"});
+  on_run(c, [args] { run_history(*args); });
 }
 
 }  // namespace caryatid::tool

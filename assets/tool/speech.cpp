@@ -10,7 +10,9 @@
 #include "assets/bake/speech/contacts.h"
 #include "assets/bake/speech/sync.h"
 #include "assets/bake/stream/clip_files.h"
+#include "assets/tool/command_line.h"
 #include "assets/tool/commands.h"
+#include "assets/tool/numbers.h"
 #include "assets/tool/spoken.h"
 #include "assets/tool/studio.h"
 #include "assets/tool/text_file.h"
@@ -22,7 +24,7 @@ namespace {
 
 struct SpeechArgs {
   VoiceJob job;
-  std::string recording, phones, out, metrics, pack, mood;
+  std::string recording, phones, out, metrics, pack, emotion;
   std::size_t worst = 0;
 };
 
@@ -47,10 +49,25 @@ void write_pair(const Spoken& spoken, const std::string& name) {
               spoken.end_ms * 1e-3, spoken.events.size());
 }
 
-void bake_voice(const SpeechArgs& a) { write_pair(speak(a.job), output_name(a)); }
+void claim_pair(const SpeechArgs& a) {
+  const std::string name = output_name(a);
+  std::vector<std::string> inputs;
+  for (const std::string& in : {a.recording, a.phones})
+    if (!in.empty()) inputs.push_back(in);
+  // A recording may be timed in place: its WAV is written as it was.
+  if (inputs.empty() || name + ".wav" != inputs.front()) claim(inputs, {name + ".wav"});
+  claim(inputs, {name + ".timing"});
+}
+
+void bake_voice(const SpeechArgs& a) {
+  check_text("TEXT", a.job.text);
+  claim_pair(a);
+  write_pair(speak(a.job), output_name(a));
+}
 
 // The mouth as FAP 1 and nothing else, 25 frames a second, for streams of other players.
 void write_visemes(const SpeechArgs& a) {
+  check_text("TEXT", a.job.text);
   constexpr double kFps = 25.0;
   const Spoken spoken = speak(a.job);
   const speech::Mouth mouth;
@@ -79,7 +96,7 @@ Spoken voice_of_phones(const std::string& path) {
     out.events.push_back({Kind::phone, out.end_ms, 0, 0, ipa == "_" ? "" : ipa});
     out.end_ms += p.begins.silent() ? 150 : (p.begins.vowel ? 110 : 70);
   }
-  if (out.events.empty()) throw std::runtime_error(path + ":1: holds no phonemes; write p a _ t a");
+  if (out.events.empty()) throw std::runtime_error(path + ": holds no phonemes; write p a _ t a");
   return out;
 }
 
@@ -98,6 +115,8 @@ std::pair<double, double> sounding_ms(const Spoken& recording) {
 }
 
 void time_recording(const SpeechArgs& a) {
+  if (a.phones.empty()) check_text("--text", a.job.text);
+  claim_pair(a);
   Spoken recording = read_recording(a.recording);
   Spoken timing = a.phones.empty() ? speak(a.job) : voice_of_phones(a.phones);
   std::int32_t before_ms = 0;
@@ -199,6 +218,7 @@ void print_worst(const bake::SyncReport& r, const std::vector<bake::TimedPhone>&
 }
 
 void sync(const SpeechArgs& a) {
+  check_text("--text", a.job.text);
   const Spoken spoken = speak(a.job), file = read_wav(a.recording);
   double spread_s = 0.0;
   const auto phones = heard_phones(spoken, file, &spread_s);
@@ -214,6 +234,10 @@ void sync(const SpeechArgs& a) {
         ms(bake::percentile(late_s, 50)), ms(bake::percentile(late_s, 95)),
         ms(bake::percentile(late_s, 99.5)), 100.0 * bake::share_within(late_s, -0.045, 0.015));
   };
+  if (r.late_s.empty())
+    throw std::runtime_error(a.metrics +
+                             ": nothing to measure: no sound of the text moves the "
+                             "mouth there; give the files and the --text of one run");
   print("visemes", r.late_s);
   print("first frames of contacts", r.contact_late_s);
   std::printf("drift: %.2f ms a minute\n", 60.0 * ms(bake::drift_s_per_s(r)));
@@ -223,9 +247,10 @@ void sync(const SpeechArgs& a) {
 }
 
 void contacts(const SpeechArgs& a) {
+  check_text("--text", a.job.text);
+  const face::FapFrame mood = a.emotion.empty() ? face::FapFrame{} : emotion_named(a.emotion);
   Studio studio(a.pack, 64, 64);
   const Spoken spoken = speak(a.job);
-  const face::FapFrame mood = a.mood.empty() ? face::FapFrame{} : emotion_named(a.mood);
   const bake::ContactReport r =
       bake::measure_contacts(phones_of(spoken), spoken.end_ms * 1e-3, mood, &studio.person());
   std::printf("lips shut on p b m: %zu of %zu, widest gap %.2f mm\n", r.shut, r.bilabials,
@@ -238,7 +263,7 @@ void add_voice_options(CLI::App* cmd, SpeechArgs* a) {
   cmd->add_option("--language", a->job.language, "Language tag: en, el, de ... (default en)");
   cmd->add_flag("--ssml", a->job.ssml, "The text is SSML");
   cmd->add_option("--rate", a->job.rate, "Of the voice's own pace (default 1)")
-      ->check(CLI::Range(0.5, 2.0));
+      ->check(number_from(0.5, 2.0));
   cmd->add_option("--voice", a->job.program, "caryatid-voice (default: beside this program)");
 }
 
@@ -248,23 +273,24 @@ void add_speech_bake(CLI::App* speech) {
   cmd->add_option("text", a->job.text, "What is said, UTF-8")->required();
   add_voice_options(cmd, a.get());
   cmd->add_option("-o,--out", a->out, "NAME, or FOLDER/ for caryatid --recordings")->required();
-  cmd->footer("example: caryatid-tool speech bake \"Press five for maps.\" -o voice/maps");
-  cmd->callback([a] { bake_voice(*a); });
+  cmd->footer("example: caryatid-tool speech bake \"Press five for maps.\" -o maps");
+  on_run(cmd, [a] { bake_voice(*a); });
 }
 
 void add_speech_time(CLI::App* speech) {
   auto a = std::make_shared<SpeechArgs>();
   CLI::App* cmd = speech->add_subcommand("time", "The timing of a recorded voice");
-  cmd->add_option("recording", a->recording, "RECORDING.wav or .flac")->required();
+  reads(cmd->add_option("recording", a->recording, "RECORDING.wav or .flac")->required());
   CLI::Option* text = cmd->add_option("--text", a->job.text, "What is said in it, UTF-8");
-  cmd->add_option("--phones", a->phones, "A file of its phonemes in IPA instead; _ is a pause")
+  reads(cmd->add_option("--phones", a->phones,
+                        "A file of its phonemes in IPA instead, by blanks; _ is a pause"))
       ->excludes(text);
   add_voice_options(cmd, a.get());
   cmd->add_option("-o,--out", a->out, "OUT.timing (and OUT.wav), or FOLDER/")->required();
   cmd->footer("example: caryatid-tool speech time maps.wav --text \"Press five.\" -o maps.timing");
-  cmd->callback([a] {
+  on_run(cmd, [a] {
     if (a->job.text.empty() && a->phones.empty())
-      throw CLI::ValidationError("time", "give --text TEXT or --phones FILE");
+      throw UsageError("give --text TEXT or --phones FILE");
     time_recording(*a);
   });
 }
@@ -274,32 +300,34 @@ void add_speech_visemes(CLI::App* speech) {
   CLI::App* cmd = speech->add_subcommand("visemes", "The mouth of a text as FAP 1, for streams");
   cmd->add_option("text", a->job.text, "What is said, UTF-8")->required();
   add_voice_options(cmd, a.get());
-  cmd->add_option("-o,--out", a->out, "OUT.fap")->required();
+  writes(cmd->add_option("-o,--out", a->out, "OUT.fap")->required(), {".fap"});
   cmd->footer("example: caryatid-tool speech visemes \"Hello.\" -o hello.fap; then fba encode");
-  cmd->callback([a] { write_visemes(*a); });
+  on_run(cmd, [a] { write_visemes(*a); });
 }
 
 void add_speech_sync(CLI::App* speech) {
   auto a = std::make_shared<SpeechArgs>();
   CLI::App* cmd = speech->add_subcommand("sync", "Mouth against sound, from what a kiosk left");
-  cmd->add_option("--audio", a->recording, "The file of caryatid --audio file:FILE")->required();
-  cmd->add_option("--metrics", a->metrics, "The file of caryatid --metrics FILE")->required();
+  reads(cmd->add_option("--audio", a->recording, "The file of caryatid --audio file:FILE")
+            ->required());
+  reads(
+      cmd->add_option("--metrics", a->metrics, "The file of caryatid --metrics FILE")->required());
   cmd->add_option("--text", a->job.text, "The text of caryatid --say TEXT")->required();
   cmd->add_option("--worst", a->worst, "Lists so many of the sounds that are farthest off");
   add_voice_options(cmd, a.get());
   cmd->footer("example: caryatid-tool speech sync --audio a.wav --metrics m.jsonl --text Hello");
-  cmd->callback([a] { sync(*a); });
+  on_run(cmd, [a] { sync(*a); });
 }
 
 void add_speech_contacts(CLI::App* speech) {
   auto a = std::make_shared<SpeechArgs>();
   CLI::App* cmd = speech->add_subcommand("contacts", "Lips and teeth of a spoken text on the mesh");
-  cmd->add_option("--pack", a->pack, "The character")->required();
+  reads(cmd->add_option("--pack", a->pack, "The character")->required());
   cmd->add_option("--text", a->job.text, "What is said, UTF-8")->required();
-  cmd->add_option("--mood", a->mood, "joy, sadness ... or joy:0.7 (default calm)");
+  cmd->add_option("--emotion", a->emotion, "joy, sadness ... or joy:0.7 (default calm)");
   add_voice_options(cmd, a.get());
   cmd->footer("example: caryatid-tool speech contacts --pack woman.pack --text \"Five maps.\"");
-  cmd->callback([a] { contacts(*a); });
+  on_run(cmd, [a] { contacts(*a); });
 }
 
 }  // namespace

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
+#include "assets/tool/command_line.h"
+#include "assets/tool/numbers.h"
 #include "assets/tool/wire.h"
 #include "core/emotion/profiles.h"
 #include "core/face/mixer.h"
@@ -13,14 +14,6 @@
 
 namespace caryatid::tool {
 namespace {
-
-std::vector<std::byte> read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": can't be read; bake one with caryatid-tool bake");
-  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
 
 void require(Status status, const std::string& path) {
   if (!status.ok())
@@ -32,7 +25,8 @@ void require(Status status, const std::string& path) {
 
 Studio::Studio(const std::string& path, std::uint32_t width, std::uint32_t height)
     : width_(width), height_(height) {
-  const std::vector<std::byte> file = read_file(path);
+  const std::string bytes = bake::read_file(path);
+  const auto file = std::as_bytes(std::span(bytes));
   const Result<pack::PackHeader> header = pack::read_header(file);
   require(header.status, path);
   image_.resize(header.value.image_bytes / sizeof(Vec4) + 1);
@@ -114,8 +108,8 @@ scene::View view_named(const std::string& name) {
       {"feet", scene::View::feet}};
   for (const auto& [n, view] : kViews)
     if (name == n) return view;
-  throw std::runtime_error("--view " + name +
-                           ": wanted front, left, right, three-quarter, bust, body or feet");
+  throw UsageError("--view " + name +
+                   ": wanted front, left, right, three-quarter, bust, body or feet");
 }
 
 void set_lod(const std::string& text, Pose* pose) {
@@ -125,7 +119,7 @@ void set_lod(const std::string& text, Pose* pose) {
   const char* end = number.data() + number.size();
   const auto [at, error] = std::from_chars(number.data(), end, value);
   if (error != std::errc{} || at != end || value == 0)
-    throw std::runtime_error("--lod " + text + ": wanted triangles as N or head=N, from 1");
+    throw UsageError("--lod " + text + ": wanted triangles as N or head=N, from 1");
 }
 
 face::FapFrame emotion_named(const std::string& text) {
@@ -133,17 +127,16 @@ face::FapFrame emotion_named(const std::string& text) {
   float strength = 1.0f;
   bool ok = true;
   if (name.size() < text.size()) {
-    const char* begin = text.data() + name.size() + 1;
-    const char* end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(begin, end, strength);
-    ok = error == std::errc{} && at == end && strength >= 0.0f && strength <= 1.0f;
+    const auto value = number_within(text.substr(name.size() + 1), 0, 1);
+    ok = value.has_value();
+    strength = static_cast<float>(value.value_or(0.0));
   }
   const auto& names = emotion::kEmotionNames;
   const auto found = std::find(names.begin(), names.end(), name);
   if (!ok || found == names.end())
-    throw std::runtime_error("--emotion " + text +
-                             ": wanted NAME or NAME:0..1 with calm, joy, "
-                             "sadness, anger, fear, disgust, surprise");
+    throw UsageError("--emotion " + text +
+                     ": wanted NAME or NAME:0..1 with calm, joy, "
+                     "sadness, anger, fear, disgust, surprise");
   emotion::Weights weights{};
   weights[static_cast<std::size_t>(found - names.begin())] = name == "calm" ? 0.0f : strength;
   return emotion::expression(weights);

@@ -1,25 +1,12 @@
 #pragma once
-// Whole text files, with errors as the tool words them.
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
+// Whole text files, under the names that the tool's commands use.
+#include "assets/bake/files/files.h"
 
 namespace caryatid::tool {
 
-inline std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error(path + ":1: cannot be read; check the name");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
+inline std::string read_text(const std::string& path) { return bake::read_file(path); }
 inline void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  if (!out.flush())
-    throw std::runtime_error(path + ":1: cannot be written; check folder and space");
+  bake::write_file(path, text);
 }
 
 }  // namespace caryatid::tool

@@ -391,7 +391,8 @@ Surface parse_mesh(std::string_view bytes, MeshFormat format, const std::string&
 }
 
 Surface read_mesh(const std::filesystem::path& path) {
-  return parse_mesh(read_file(path), format_of(path), path.string());
+  const MeshFormat format = format_of(path);
+  return parse_mesh(read_file(path), format, path.string());
 }
 
 std::string format_mesh(const Surface& s, MeshFormat format) {
@@ -408,23 +409,6 @@ std::string format_mesh(const Surface& s, MeshFormat format) {
     out += '\n';
   }
   return out;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.good() && !in.eof()) throw MeshError(path.string() + ":1: it cannot be read");
-  if (bytes.empty()) throw MeshError(path.string() + ":1: it is empty or cannot be read");
-  return bytes;
-}
-
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path beside = path.string() + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw MeshError(path.string() + ":1: it cannot be written");
-  std::filesystem::rename(beside, path);
 }
 
 }  // namespace caryatid::bake

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "assets/bake/files/files.h"
 #include "assets/bake/simplify/edge_collapse.h"
 
 namespace caryatid::bake {
@@ -29,8 +30,5 @@ Surface read_mesh(const std::filesystem::path& path);
 
 // Positions in the shortest form that reads back to the same double; PLY is binary, in double.
 std::string format_mesh(const Surface& surface, MeshFormat format);
-// Writes beside, then renames: a cut never leaves half a file.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
-std::string read_file(const std::filesystem::path& path);
 
 }  // namespace caryatid::bake

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
 #include "core/face/fap_fill.h"
 #include "core/stream/bap_text.h"
 #include "core/stream/fap_text.h"
@@ -24,7 +23,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 template <class Reader, class Frame>
 double read_frames(const std::string& path, std::vector<Frame>* out) {
-  const std::string text = read_bytes(path);
+  const std::string text = read_file(path);
   Reader reader(text);
   Frame frame;
   auto seen = frame.mask;
@@ -70,23 +69,10 @@ void write_text(const std::vector<Frame>& frames, const std::string& path, const
     const auto written = write(static_cast<std::int32_t>(i), frames[i], line);
     text.append(line.data(), written.value);
   }
-  write_bytes(path, text);
+  write_file(path, text);
 }
 
 }  // namespace
-
-std::string read_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read; name a file that can");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write_bytes(const std::string& path, std::span<const char> bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": cannot be written; name a place that can");
-}
 
 void resample(double frames_per_second, AnimationClip* io_clip) {
   if (!io_clip->face.empty())
@@ -132,7 +118,7 @@ void write_bap(const AnimationClip& clip, const std::string& path) {
 
 AnimationClip read_fba(const std::string& path, const stream::FbaDecoder::Options& options,
                        FbaReport* out_report) {
-  const std::string text = read_bytes(path);
+  const std::string text = read_file(path);
   std::vector<stream::ModelNode> nodes(kNodes);
   stream::FbaDecoder decoder(nodes, options);
   decoder.refill(std::as_bytes(std::span(text)), true);

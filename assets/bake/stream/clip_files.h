@@ -58,7 +58,4 @@ PointError summary_of(std::vector<double> errors_mm);
 PointError point_error(const std::vector<face::FapFrame>& original,
                        const std::vector<face::FapFrame>& decoded);
 
-std::string read_bytes(const std::string& path);
-void write_bytes(const std::string& path, std::span<const char> bytes);
-
 }  // namespace caryatid::bake

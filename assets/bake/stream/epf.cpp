@@ -4,6 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
+
 namespace caryatid::bake {
 namespace {
 
@@ -197,9 +199,7 @@ std::vector<EpfPlane> parse_epf(const std::string& text, const std::string& name
   return Parser(text, name).run();
 }
 
-std::vector<EpfPlane> read_epf(const std::string& path) {
-  return parse_epf(read_bytes(path), path);
-}
+std::vector<EpfPlane> read_epf(const std::string& path) { return parse_epf(read_file(path), path); }
 
 std::vector<std::byte> encode_by_epf(const AnimationClip& clip, const std::vector<EpfPlane>& planes,
                                      const std::string& name) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
 #include "core/face/fap_fill.h"
 #include "core/face/mixer.h"
 
@@ -15,7 +16,7 @@ constexpr float kMillimetres = 1000.0f;
 }  // namespace
 
 HeadMeter::HeadMeter(const std::string& pack_path) {
-  const std::string text = read_bytes(pack_path);
+  const std::string text = read_file(pack_path);
   const auto file = std::as_bytes(std::span(text));
   const auto refuse = [&pack_path](const char* what) {
     throw std::runtime_error(pack_path + ": " + what + "; bake it again");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "assets/bake/files/files.h"
+
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #include <stb_image.h>
@@ -30,9 +32,13 @@ std::array<float, 4> catmull_rom(float t) {
 }  // namespace
 
 Image read_image(const std::filesystem::path& file) {
+  if (const std::string why = why_unreadable(file); !why.empty())
+    throw std::runtime_error(file.string() + ": " + why);
   int width = 0, height = 0, channels = 0;
   stbi_uc* data = stbi_load(file.c_str(), &width, &height, &channels, 4);
-  if (!data) throw std::runtime_error(file.string() + ": cannot be read as an image");
+  if (!data)
+    throw std::runtime_error(file.string() +
+                             ": is no image that can be read; save it as PNG or JPEG");
   Image out;
   out.name = file.stem().string();
   out.width = static_cast<std::uint32_t>(width);
@@ -45,8 +51,14 @@ Image read_image(const std::filesystem::path& file) {
 
 void write_png(const Image& image, const std::filesystem::path& file) {
   const int w = static_cast<int>(image.width), h = static_cast<int>(image.height);
-  if (!stbi_write_png(file.c_str(), w, h, 4, image.rgba.data(), 4 * w))
-    throw std::runtime_error(file.string() + ": cannot be written");
+  std::string bytes;
+  const auto add = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data),
+                                          static_cast<std::size_t>(size));
+  };
+  if (!stbi_write_png_to_func(add, &bytes, w, h, 4, image.rgba.data(), 4 * w))
+    throw std::runtime_error(file.string() + ": no memory for the picture; make it smaller");
+  write_file(file, bytes);
 }
 
 float srgb_to_linear(float c) {

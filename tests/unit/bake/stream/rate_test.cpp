@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "assets/bake/files/files.h"
 #include "assets/bake/stream/clip_files.h"
 #include "assets/bake/stream/rate_plot.h"
 #include "assets/bake/stream/talking_track.h"
@@ -25,7 +26,7 @@ Outcome at_rate(const AnimationClip& clip, double kbit_per_s, std::size_t intra_
   EXPECT_TRUE(stream::plan_rate(clip.view(intra_every), kbit_per_s, nodes, &settings, &plan).ok());
   const std::string path = (std::filesystem::path(::testing::TempDir()) / "rate_test.fba").string();
   const auto bytes = encode_fba(clip, intra_every, settings);
-  write_bytes(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   FbaReport report;
   const AnimationClip back = read_fba(path, {}, &report);
   std::filesystem::remove(path);
