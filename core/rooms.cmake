@@ -16,3 +16,6 @@ caryatid_room(speech core/speech ${board} caryatid_face caryatid_body)
 caryatid_room(scene core/scene ${board} caryatid_stream caryatid_emotion caryatid_speech)
 caryatid_room(lod core/lod ${board} caryatid_scene)
 caryatid_room(agent core/agent ${board} caryatid_lod)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)  # The rest runs on CPUs without NEON.
+  set_source_files_properties(core/face/move_sum_neon.cpp PROPERTIES COMPILE_OPTIONS -mfpu=neon)
+endif()

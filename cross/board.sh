@@ -41,7 +41,7 @@ board_packages=(systemd systemd-sysv udev kmod busybox-static linux-image-arm64 
   libwayland-client0 libwayland-egl1 libasound2 libespeak-ng1 libstdc++6 libharfbuzz0b libfribidi0
   libunibreak1)
 # For the image, beside what our packages depend on.
-image_packages=(systemd systemd-sysv udev kmod mount util-linux e2fsprogs busybox-static
+image_packages=(systemd systemd-sysv udev kmod mount util-linux busybox-static
   base-files libc-bin base-passwd linux-image-arm64 raspi-firmware systemd-boot-efi
   libgl1-mesa-dri tzdata)
 cache="${XDG_CACHE_HOME:-$HOME/.cache}/caryatid"

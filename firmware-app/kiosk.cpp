@@ -17,6 +17,7 @@
 #include "firmware-app/splash.h"
 #include "platform/buttons/scripted/scripted.h"
 #include "platform/clock/clock.h"
+#include "platform/cpu.h"
 #include "platform/log/log.h"
 
 namespace caryatid::app {
@@ -82,6 +83,7 @@ bool Kiosk::load_base(std::string* out_error) {
     *out_error = describe_refusal(pack_file_.name(), status);
     return false;
   }
+  person_.use(face::sum_moves_for(platform::has_neon()));
   status = person_.start(loader_.view(), memory_.arena());
   if (status.ok()) return true;
   *out_error =

@@ -185,6 +185,7 @@ void Person::deform(const face::FapFrame& faps) {
     job.channel_weight = channel_weights_;
     job.mesh = &part.mesh;
     job.dirty = &part.dirty;
+    job.sum = sum_moves_;
     if (job.run().ok()) deformed_ += part.mesh.vertex_count();
   }
 }

@@ -10,6 +10,7 @@
 #include "core/base/arena.h"
 #include "core/body/pose.h"
 #include "core/face/fat.h"
+#include "core/face/move_sum.h"
 #include "core/face/transforms.h"
 #include "core/face/wrinkles.h"
 #include "core/mesh/progressive.h"
@@ -65,6 +66,8 @@ class Person {
   const face::FapFrame& rest_face() const { return rest_face_; }
   // Where a feature point is now, in the world; rest position when the pack lacks it.
   Vec3 feature_point_m(int group, int index) const;
+  // The deformation's inner loop, by what the CPU has; the bits are the same.
+  void use(face::SumMoves sum) { sum_moves_ = sum; }
   // Vertices that show() deformed in the last frame, for the cost model.
   std::uint32_t deformed_vertices() const { return deformed_; }
   // Collapse records applied or undone between the last two collect_patches(), for the cost model.
@@ -99,6 +102,7 @@ class Person {
   face::TransformGeometry geometry_;
   face::Wrinkles wrinkles_;
   std::uint32_t deformed_ = 0;
+  face::SumMoves sum_moves_ = face::sum_moves;
   std::uint32_t records_ = 0;
 };
 

@@ -32,18 +32,13 @@ bool has_moves(const ObjectFat& fat, std::uint32_t version) {
 }  // namespace
 
 Displacement displacement_of(const ObjectFat& fat, std::span<const float> channel_weight,
-                             std::uint32_t version) {
-  Vec3 d{0}, n{0};
+                             std::uint32_t version, SumMoves sum) {
   // The bounds hold for a loaded pack; while a refinement arrives, its bytes are not yet checked.
   const auto end = std::min<std::size_t>(fat.first[version + 1], fat.moves.size());
-  for (std::size_t i = fat.first[version]; i < end; ++i) {
-    const pack::Move& move = fat.moves[i];
-    if (move.channel >= channel_weight.size()) continue;
-    const float w = channel_weight[move.channel];
-    if (w == 0.0f) continue;
-    d += w * Vec3(move.d[0], move.d[1], move.d[2]);
-    n += w * Vec3(move.normal[0], move.normal[1], move.normal[2]);
-  }
+  const std::size_t begin = std::min<std::size_t>(fat.first[version], end);
+  const MoveSum moved = sum(fat.moves.subspan(begin, end - begin), channel_weight);
+  const Vec3 d(moved.d[0], moved.d[1], moved.d[2]);
+  const Vec3 n(moved.normal[0], moved.normal[1], moved.normal[2]);
   return {d * pack::kMoveStep_m, n * kNormalStep};
 }
 
@@ -60,9 +55,9 @@ Status DeformJob::run() const {
     const bool morphs = morph > 0.0f && others[slot] != mesh::kNoVersion &&
                         others[slot] + std::size_t{1} < fat.first.size();
     if (!has_moves(fat, version) && !(morphs && has_moves(fat, others[slot]))) continue;
-    Displacement by = displacement_of(fat, channel_weight, version);
+    Displacement by = displacement_of(fat, channel_weight, version, sum);
     if (morphs) {
-      const Displacement to = displacement_of(fat, channel_weight, others[slot]);
+      const Displacement to = displacement_of(fat, channel_weight, others[slot], sum);
       by.position_m += morph * (to.position_m - by.position_m);
       by.normal += morph * (to.normal - by.normal);
     }

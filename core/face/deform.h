@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/status.h"
+#include "core/face/move_sum.h"
 #include "core/mesh/progressive.h"
 #include "core/pack/pack.h"
 
@@ -24,6 +25,7 @@ struct DeformJob {
   std::span<const float> channel_weight;  // evaluate_channels()
   mesh::LiveMesh* mesh = nullptr;         // Required.
   mesh::DirtyRange* dirty = nullptr;      // Optional: slots whose bits changed are added.
+  SumMoves sum = sum_moves;               // Same bits by any.
 
   // invalid_argument: no mesh. out_of_capacity: `fat.first` does not cover the mesh's versions;
   // then nothing is written.
@@ -36,6 +38,6 @@ struct Displacement {
   Vec3 normal{0};
 };
 Displacement displacement_of(const ObjectFat& fat, std::span<const float> channel_weight,
-                             std::uint32_t version);
+                             std::uint32_t version, SumMoves sum = sum_moves);
 
 }  // namespace caryatid::face

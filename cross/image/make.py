@@ -54,19 +54,12 @@ drivers/(pci/controller|i2c/busses/i2c-bcm) fs/(ext4|overlayfs|squashfs)/ crypto
 FILES = {
     "etc/hostname": "caryatid\n",
     "etc/machine-id": "",  # One of its own at each start: nothing is kept that would need it.
-    "etc/fstab":
-        "PARTUUID=%08x-07 /data ext4 noatime,nofail,x-systemd.device-timeout=10 0 2\n" % DISK_ID +
-        "".join(f"/data/{kept} {place} none bind,nofail,x-systemd.requires-mounts-for=/data 0 0\n"
-                for kept, place in (("state", "/var/lib/caryatid"),
-                                    ("cache", "/var/cache/caryatid"),
-                                    ("programme", "/etc/caryatid"))),
+    "etc/fstab": "",  # All is mounted by init.
     # 14 s: the Raspberry Pi's timer cannot more than 15.
     "etc/systemd/system.conf.d/caryatid.conf":
         "[Manager]\nRuntimeWatchdogSec=14\nRebootWatchdogSec=14\nShowStatus=no\n",
     "etc/systemd/journald.conf.d/caryatid.conf": "[Journal]\nStorage=volatile\nRuntimeMaxUse=16M\n",
-    # Without the data partition she stands there all the same, with what the root holds.
     "etc/systemd/system/caryatid.service.d/image.conf":
-        "[Unit]\nAfter=var-lib-caryatid.mount var-cache-caryatid.mount etc-caryatid.mount\n"
         "[Service]\nEnvironmentFile=-/data/kiosk.env\n",
     # For the test and for a technician: systemd.wants=caryatid-shell@hvc0.service on the kernel's
     # command line, which only who holds the card can change.
@@ -228,7 +221,10 @@ def prepare(root):
         shutil.copy(os.path.join(root, "usr/share/base-passwd", name + ".master"),
                     os.path.join(root, "etc", name))
     shutil.copy(os.path.join(root, "usr/share/libc-bin/nsswitch.conf"), os.path.join(root, "etc"))
-    os.symlink("/proc/self/mounts", os.path.join(root, "etc/mtab"))
+    for link, target in (("etc/mtab", "/proc/self/mounts"), ("var/run", "/run"),
+                         ("var/lock", "/run/lock")):
+        shutil.rmtree(os.path.join(root, link), ignore_errors=True)
+        os.symlink(target, os.path.join(root, link))
     for path, text in FILES.items():
         write(root, path, text)
     units = os.path.join(root, "etc/systemd/system")

@@ -11,6 +11,7 @@
 #include "core/face/mixer.h"
 #include "core/scene/camera.h"
 #include "core/scene/compose.h"
+#include "platform/cpu.h"
 #include "tests/golden/program/program.h"
 
 namespace caryatid::golden {
@@ -32,6 +33,7 @@ class Hash : public testing::Test {
     ASSERT_TRUE(loader_->feed(bytes.subspan(sizeof(pack::PackHeader))).ok());
     memory_.resize(agent::Person::arena_bytes(loader_->view()));
     Arena arena(memory_);
+    person_->use(face::sum_moves_for(platform::has_neon()));
     ASSERT_TRUE(person_->start(loader_->view(), arena).ok());
   }
 
