@@ -123,7 +123,7 @@ compare_hashes() {
 make_board_tree() {
   local names scratch key mode=()
   names="${board_packages[*]}"
-  key=$({ printf '%s' "$names"; cat cross/board/image.py; } | sha256sum | cut -c1-12)
+  key=$({ printf '%s' "$names"; cat cross/board/tree.py; } | sha256sum | cut -c1-12)
   tree="$cache/board-$key"
   [ -d "$tree" ] && return 0
   mkdir -p "$cache"
@@ -135,7 +135,7 @@ make_board_tree() {
     --include="${names// /,}" bookworm "$scratch" http://deb.debian.org/debian \
     >"$cache/board.log" 2>&1 ||
     { rm -rf "$scratch"; fail "no tree of the board; $cache/board.log says why"; }
-  python3 cross/board/image.py prepare "$scratch" || fail "the board's tree can't be prepared"
+  python3 cross/board/tree.py prepare "$scratch" || fail "the board's tree can't be prepared"
   mv -T "$scratch" "$tree"
 }
 

@@ -29,8 +29,8 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../cross/board"))
 sys.path.insert(0, os.path.dirname(__file__))
 
-import image  # noqa: E402
 import sound  # noqa: E402
+import tree  # noqa: E402
 from host_pictures import CONFIG, HEIGHT, MOUTH, VIEW, WIDTH, HostPictures  # noqa: E402
 from machine import ANSWER_S, Machine, Timeout, wait_for  # noqa: E402
 from power_cuts import PowerCuts  # noqa: E402
@@ -319,7 +319,7 @@ def make_payload(options):
     for path in ("usr/bin/caryatid", "usr/bin/caryatid-voice", "usr/share/caryatid/woman.pack"):
         if not os.path.exists(os.path.join(payload, path)):
             raise Failure(f"{payload}/{path} is missing")
-    image.write(payload, "etc/systemd/system/caryatid.service.d/emulated.conf", UNIT)
+    tree.write(payload, "etc/systemd/system/caryatid.service.d/emulated.conf", UNIT)
     wants = os.path.join(payload, "etc/systemd/system/multi-user.target.wants")
     os.makedirs(wants, exist_ok=True)
     link = os.path.join(wants, "caryatid.service")
@@ -387,7 +387,7 @@ def main():
         os.makedirs(options.out, exist_ok=True)
         make_payload(options)
         disk = os.path.join(options.out, "disk.ext4")
-        image.disk(options.tree, options.payload, disk)
+        tree.disk(options.tree, options.payload, disk)
         print("power on", flush=True)
         failed = run(options, disk)
     except (Failure, Timeout, OSError, subprocess.CalledProcessError) as error:

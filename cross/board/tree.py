@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the emulated board's disk from an unpacked Debian tree: packages unpacked, no script run.
 
-image.py prepare TREE            once per tree: users, modules, initramfs, settings of a test board
-image.py disk TREE PAYLOAD OUT   TREE with the files of PAYLOAD (a folder like /) as an ext4 image
+tree.py prepare TREE            once per tree: users, modules, initramfs, settings of a test board
+tree.py disk TREE PAYLOAD OUT   TREE with the files of PAYLOAD (a folder like /) as an ext4 image
 """
 
 import glob
