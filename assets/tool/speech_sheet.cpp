@@ -10,8 +10,9 @@
 namespace caryatid::tool {
 namespace {
 
-constexpr std::int32_t kFrame_ms = 80;
-constexpr std::uint32_t kColumns = 12;
+constexpr std::int32_t kFrame_ms =
+    40;  // As short as the shortest p of a voice: each is in a frame.
+constexpr std::uint32_t kColumns = 14;
 constexpr float kKiosk_ms = 1000.0f / 30.0f;
 
 using Kind = SpokenEvent::Kind;
