@@ -99,6 +99,7 @@ bool Desk::take_memory(Arena& arena) {
                                                font_.header->crc, font_.glyphs.size());
   compiled_ = {};
   if (programme.ok()) guide_.take(programme.value);
+  if (programme.ok()) remember_start();
   if (!config_.empty()) reload_.watch(config_, files_read_);
   return programme.ok();
 }
@@ -107,12 +108,17 @@ void Desk::load(platform::Renderer& renderer, std::uint32_t most_side) {
   std::uint32_t side = 256;
   while (side < most_side && side < 1024) side *= 2;
   (void)renderer.load_font(font_);
+  start_pictures_.clear();
+  for (const agent::PictureRecord& p : programme().pictures) {
+    picture_then_[start_pictures_.size()] = static_cast<std::uint16_t>(start_pictures_.size());
+    (void)start_pictures_.push({FixedString<95>(programme().text(p.file)), {}});
+  }
   (void)read_pictures(config_, programme(), side, [&](std::size_t p, const Picture& picture) {
     if (renderer
             .load_picture(static_cast<std::uint16_t>(p), picture.texture_width,
                           picture.texture_height, picture.texels)
             .ok())
-      pictures_[p] = {picture.width, picture.height};
+      start_pictures_[p].size = pictures_[p] = {picture.width, picture.height};
   });
   signboard_.start(font_);
 }
@@ -135,7 +141,49 @@ void Desk::reload(std::int64_t now_us, bool speaking) {
   if (new_bytes_ > 0 && !speaking) adopt();
 }
 
-// Buttons belong to devices, which were opened at start: their names must stay.
+void Desk::remember_start() {
+  for (const agent::ButtonRecord& b : programme().buttons) {
+    (void)start_buttons_.push(FixedString<31>(programme().text(b.name)));
+    button_now_[start_buttons_.size() - 1] = static_cast<std::uint16_t>(start_buttons_.size());
+  }
+}
+
+// Buttons belong to devices, which were opened at start; they keep their numbers.
+void Desk::match_buttons(const agent::Programme& next) {
+  button_now_ = {};
+  for (std::size_t b = 0; b < next.buttons.size(); ++b) {
+    const std::string_view name = next.text(next.buttons[b].name);
+    bool known = false;
+    for (std::size_t s = 0; s < start_buttons_.size(); ++s) {
+      if (name != std::string_view(start_buttons_[s].c_str(), start_buttons_[s].size())) continue;
+      button_now_[s] = static_cast<std::uint16_t>(b + 1);
+      known = true;
+    }
+    if (!known)
+      platform::log(Event::text_refused, "button '%.*s' is new; start again to press it",
+                    static_cast<int>(name.size()), name.data());
+  }
+}
+
+// Pictures are in the GPU since start.
+void Desk::match_pictures(const agent::Programme& next) {
+  pictures_ = {};
+  for (std::size_t p = 0; p < next.pictures.size(); ++p) {
+    const std::string_view file = next.text(next.pictures[p].file);
+    bool known = false;
+    for (std::size_t s = 0; s < start_pictures_.size(); ++s) {
+      const StartPicture& old = start_pictures_[s];
+      if (file != std::string_view(old.file.c_str(), old.file.size())) continue;
+      pictures_[p] = old.size;
+      picture_then_[p] = static_cast<std::uint16_t>(s);
+      known = true;
+    }
+    if (!known)
+      platform::log(Event::text_refused, "%.*s: is a new picture; start again to see it",
+                    static_cast<int>(file.size()), file.data());
+  }
+}
+
 void Desk::adopt() {
   const auto block = std::as_bytes(slots_[1 - slot_]).first(new_bytes_);
   new_bytes_ = 0;
@@ -145,19 +193,8 @@ void Desk::adopt() {
                   agent::refusal_text(static_cast<agent::ProgrammeRefusal>(next.status.detail)));
     return;
   }
-  const agent::Programme& old = programme();
-  bool same = next.value.buttons.size() == old.buttons.size();
-  for (std::size_t b = 0; same && b < old.buttons.size(); ++b)
-    same = next.value.text(next.value.buttons[b].name) == old.text(old.buttons[b].name);
-  if (!same) {
-    platform::log(Event::text_refused, "kiosk.toml has other buttons now; start again to use them");
-    return;
-  }
-  // Pictures are in the GPU since start; another in their place is not.
-  for (std::size_t p = 0; p < next.value.pictures.size(); ++p)
-    if (p >= old.pictures.size() ||
-        next.value.text(next.value.pictures[p].file) != old.text(old.pictures[p].file))
-      pictures_[p] = {};
+  match_buttons(next.value);
+  match_pictures(next.value);
   said_.clear();  // Its letters lie in the old block.
   plain_ = {};
   mute_ = {};
@@ -181,13 +218,21 @@ const scene::Box& Desk::stage(agent::SignboardInput frame, float dt_s) {
 
 scene::Overlay Desk::overlay(agent::SignboardInput frame, float dt_s) {
   complete(&frame);
-  return signboard_.overlay(frame, dt_s);
+  scene::Overlay out = signboard_.overlay(frame, dt_s);
+  if (out.picture < kMaxPictures) out.picture = picture_then_[out.picture];
+  return out;
 }
 
 const agent::Guidance& Desk::step(float dt_s, std::span<const ButtonEvent> events,
                                   const agent::Moment& now, bool speaking) {
   now_ = now;
-  const agent::Guidance& g = guide_.step(dt_s, events, now, speaking);
+  // From the numbers that devices know to those of the present programme.
+  platform::ButtonEvents mine;
+  for (ButtonEvent e : events) {
+    e.button = e.button >= 1 && e.button <= kMaxButtons ? button_now_[e.button - 1u] : 0;
+    if (e.button != 0) (void)mine.push(e);
+  }
+  const agent::Guidance& g = guide_.step(dt_s, mine.span(), now, speaking);
   if (g.describes || g.says) {
     described_ = g.describes;
     write_said();

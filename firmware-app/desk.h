@@ -14,6 +14,7 @@
 #include "core/pack/font.h"
 #include "firmware-app/reload.h"
 #include "firmware-app/texts/compile.h"
+#include "platform/buttons/buttons.h"
 #include "platform/render/render.h"
 
 namespace caryatid::app {
@@ -41,7 +42,9 @@ class Desk {
   // without it. most_side: of the display, pixels.
   void load(platform::Renderer& renderer, std::uint32_t most_side);
 
-  // Takes over changed texts, between two utterances. Once a frame; never waits; not for replays.
+  // Takes over changed texts, pages, menus, schedule and what buttons do, between two utterances.
+  // Buttons and pictures that are new by name wait for the next start, which is said; a device's
+  // wiring and a picture's content, too. Once a frame; never waits; not for replays.
   void reload(std::int64_t now_us, bool speaking);
 
   // One step of the guide. What it says is in ssml() until the next text begins.
@@ -70,6 +73,9 @@ class Desk {
  private:
   bool compile(ProgrammeFiles files, CompiledProgramme* out);
   void adopt();
+  void remember_start();
+  void match_buttons(const agent::Programme& next);
+  void match_pictures(const agent::Programme& next);
   void complete(agent::SignboardInput* io_frame) const;
   void write_said();
 
@@ -77,8 +83,17 @@ class Desk {
   std::vector<agent::TypeLetter> letters_;
   std::vector<std::byte> compiled_;  // Until take_memory().
   std::array<std::span<std::uint32_t>, 2> slots_;
-  std::string config_;  // Empty: the built-in programme.
-  std::array<agent::PictureSize, kMaxPictures> pictures_{};
+  std::string config_;                                       // Empty: the built-in programme.
+  std::array<agent::PictureSize, kMaxPictures> pictures_{};  // By the present programme's index.
+  // What devices and GPU got at the start, by name: a later programme may order it otherwise.
+  FixedVector<FixedString<31>, kMaxButtons> start_buttons_;
+  struct StartPicture {
+    FixedString<95> file;
+    agent::PictureSize size;
+  };
+  FixedVector<StartPicture, kMaxPictures> start_pictures_;
+  std::array<std::uint16_t, kMaxButtons> button_now_{};     // From 1; 0: gone.
+  std::array<std::uint16_t, kMaxPictures> picture_then_{};  // In the GPU, of the present index.
   agent::Moment now_;
   Reload reload_;
   std::vector<std::string> files_read_;

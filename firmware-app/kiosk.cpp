@@ -143,6 +143,7 @@ bool Kiosk::reopen_screen() {
   if (++reopened_ > kOften || !open_display() || !open_renderer()) return false;
   for (std::size_t t = 0; t < person_.view().textures.size(); ++t)
     if (texture_whole_[t]) (void)renderer_->upload_texture(static_cast<std::uint16_t>(t), true);
+  desk_.load(*renderer_, std::max(renderer_->width(), renderer_->height()));  // Letters, pictures.
   return true;
 }
 

@@ -44,6 +44,34 @@ TEST_F(Reload, AWrongTextIsRefusedWithItsLineAndTheOldOneGoesOn) {
   EXPECT_NE(run.output.find("the old ones go on"), std::string::npos) << run.output;
 }
 
+// Pages, menus and what buttons do change; a button keeps its device by its name, wherever it
+// stands in the list; what is new waits for the next start and is named.
+TEST_F(Reload, OtherPagesAndButtonsAreTakenOverByName) {
+  std::filesystem::create_directories(folder_ / "small/texts");
+  const auto config =
+      write_file(folder_ / "small/kiosk.toml", "[[button]]\nname = 'a'\n[[button]]\nname = 'b'\n");
+  write_file(folder_ / "small/texts/en.toml",
+             "[q]\nsay = 'one two three four five six'\n[picture]\nn = 'x'\n");
+  const auto changed = write_file(folder_ / "changed",
+                                  "[[picture]]\nname = 'n'\nfile = 'new.png'\n"
+                                  "[[page]]\nname = 'p'\n[[page]]\nname = 'q'\nshow = 'n'\n"
+                                  "[[button]]\nname = 'z'\n"
+                                  "[[button]]\nname = 'b'\ngo = 'q'\n");
+  const auto script = write_file(folder_ / "script", "8 a down\n8.1 b down\n");
+  const auto metrics = folder_ / "m.jsonl";
+  const Outcome run =
+      run_program("--config " + config.string() + " --script " + script.string() + " --metrics " +
+                      metrics.string() + " --display none --audio null --duration 12",
+                  "(sleep 1; cp " + changed.string() + " " + config.string() + ") & ");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find(" 0 allocations after the seal"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("changed texts taken over"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("button 'z' is new"), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("button 'b' is new"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("new.png: is a new picture"), std::string::npos) << run.output;
+  EXPECT_NE(content(metrics).find("\"word\":5"), std::string::npos) << "b does not lead to q";
+}
+
 TEST(Texts, CheckNamesEveryFaultOfAProgramme) {
   const auto folder = fresh_folder("faults");
   std::filesystem::create_directories(folder / "texts");
