@@ -67,7 +67,8 @@ void add_plot(CLI::App& app) {
            plot_fap, 1);
   add_kind(*plot, "errors",
            "Error over faces of the simplifier beside its peers, from the benchmark's JSON.\n"
-           "Example: caryatid-tool plot errors simplify.json -o errors.svg",
+           "Example: caryatid-tool plot errors simplify.json -o errors.svg\n"
+           "As PNG, with Debian's librsvg2-bin: rsvg-convert errors.svg -o errors.png",
            plot_errors, 1);
 }
 

@@ -166,7 +166,10 @@ Cells lods(Studio* studio, std::uint32_t side) {
     pose.head_lod = faces;
     cells.pictures.push_back(studio->picture(pose));
     const bake::Surface head = head_surface(studio->person());
-    cells.captions.push_back(std::to_string(head.triangles.size()) + " faces of the head");
+    std::string caption = std::to_string(head.triangles.size()) + " faces of the head";
+    // A collapse takes two faces, and one alone only at a border: every second number is passed by.
+    if (head.triangles.size() + 1 == faces) caption += " (of " + std::to_string(faces) + ", odd)";
+    cells.captions.push_back(std::move(caption));
     wireframes.push_back(draw_surface(head, whole_of(head, 0, 0), true, side));
   }
   add_wireframes(wireframes, &cells);

@@ -217,7 +217,9 @@ void importance(benchmark::State& state) {
   const bake::Character character = woman();
   std::uint32_t o = 0;
   while (character.objects[o].role != pack::ObjectRole::head) ++o;
-  const bake::Object& head = character.objects[o];
+  bake::Object head = character.objects[o];  // With the locks that the bake gives it.
+  for (const bake::FeaturePoint& p : character.feature_points)
+    if (p.object == o) head.locked.push_back(p.vertex);
   bake::ObjectOptions options;
   options.base_triangles = static_cast<std::uint32_t>(state.range(0));
   options.pose_weight = 10.0;

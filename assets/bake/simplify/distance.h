@@ -37,7 +37,7 @@ struct SurfaceError {
   double rms() const;
 };
 
-// Samples uniform by area, on average `samples_per_face` a triangle of each surface (at least 1000
+// Samples uniform by area, on average `samples_per_face` a triangle of each surface (at least 30000
 // and all vertices besides). Same seed, same figures.
 SurfaceError measure_error(const Surface& a, const Surface& b, double samples_per_face = 10,
                            std::uint64_t seed = 1);

@@ -446,9 +446,10 @@ void ObjectCollapse::push(std::uint32_t h) {
   ++serial_[h];
   if (p.kind == Kind::none) return;
   const double l2 = length2(position_[mesh_.to(h)] - position_[mesh_.from[h]]);
-  const double counts = importance_.empty() ? 1.0
-                                            : static_cast<double>(importance_[mesh_.from[h]]) *
-                                                  static_cast<double>(importance_[mesh_.to(h)]);
+  const double counts = importance_.empty()
+                            ? 1.0
+                            : std::sqrt(static_cast<double>(importance_[mesh_.from[h]]) *
+                                        static_cast<double>(importance_[mesh_.to(h)]));
   // Costs below rounding are all alike: flat ground goes by edge length.
   const double flat = 1e-18 * l2 * l2 * l2;
   queue_.push({p.cost > flat ? counts * p.cost : 0.0, l2, h, serial_[h]});

@@ -59,8 +59,8 @@ struct ObjectOptions {
   bool vertex_cache_order = true;
   // Edges of a mesh that is symmetric about x = 0 collapse in pairs, so that every level is, too.
   bool symmetric_pairs = true;
-  // By vertex, or empty: the cost of an edge is multiplied by what both its ends count. Where the
-  // object is seldom seen, less.
+  // By vertex, or empty: the cost of an edge is multiplied by what its ends count (their geometric
+  // mean). Where the object is seldom seen, less.
   std::vector<float> importance = {};
 };
 

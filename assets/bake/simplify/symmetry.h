@@ -18,7 +18,7 @@ std::vector<std::uint32_t> mirror_points(std::span<const Vec3d> points, double t
 
 // What each vertex counts for somebody who stands before the figure (+z): 1 for what faces him and
 // for the silhouette, falling to `behind` for what faces away.
-std::vector<float> importance_from_front(const Mesh& mesh, float behind = 0.5f);
+std::vector<float> importance_from_front(const Mesh& mesh, float behind = 0.25f);
 
 // The same for the skin of a head among its parts: skin that brows and lashes lie on counts twice,
 // or they would sink into what is left of it.

@@ -93,7 +93,7 @@ TEST(ObjectCollapse, WhatCountsLessGoesFirst) {
   const Object object = object_of(ball(24, 0.1));
   const ObjectHistory even = simplify_object(object, {.base_triangles = 200});
   const ObjectHistory front = simplify_object(
-      object, {.base_triangles = 200, .importance = importance_from_front(object.mesh, 0.1f)});
+      object, {.base_triangles = 200, .importance = importance_from_front(object.mesh, 0.01f)});
   const auto behind = [](const ObjectHistory& h) {
     const std::vector<Vec3> points = level(h, 200);
     return std::count_if(points.begin(), points.end(), [](const Vec3& p) { return p.z < -0.05f; });
