@@ -1,6 +1,7 @@
 #include "firmware-app/texts/compile.h"
 
 #include "core/agent/describe.h"
+#include "core/agent/guide.h"
 #include "core/agent/ssml.h"
 #include "tests/unit/firmware-app/texts/desk_of.h"
 
@@ -18,15 +19,19 @@ void expect_message(const DeskOf& desk, const std::string& words) {
   EXPECT_FALSE(desk.compiled.block.empty());  // Whatever is wrong, there is a programme.
 }
 
-TEST(Compile, TheDefaultProgrammeIsWithoutFault) {
-  std::vector<BuiltinFile> files;
+std::vector<BuiltinFile> default_programme() {
   static std::string texts[3];
+  std::vector<BuiltinFile> files;
   const char* names[] = {"kiosk.toml", "texts/en.toml", "texts/el.toml"};
   for (int i = 0; i < 3; ++i) {
     texts[i] = file_text(kSource + "/assets/programme/" + names[i]);
     files.push_back({names[i], texts[i]});
   }
-  DeskOf desk(files);
+  return files;
+}
+
+TEST(Compile, TheDefaultProgrammeIsWithoutFault) {
+  DeskOf desk(default_programme());
   EXPECT_EQ(desk.messages(), "");
   ASSERT_EQ(desk.programme.languages.size(), 2u);
   EXPECT_LT(desk.compiled.block.size(), kMaxProgrammeBytes / 4);
@@ -34,6 +39,53 @@ TEST(Compile, TheDefaultProgrammeIsWithoutFault) {
   EXPECT_EQ(desk.said(0, 1), "Καλώς ήρθατε! Πατήστε πέντε για χάρτες.");
   for (const char* name : {"joy", "sadness", "anger", "fear", "disgust", "surprise", "calm"})
     EXPECT_GE(desk.programme.find_button(name), 0) << name;
+}
+
+// A visitor at the default desk.
+class DefaultDesk : public ::testing::Test {
+ protected:
+  DefaultDesk() { guide_.take(desk_.programme); }
+  const agent::Guidance& press(const char* name, const agent::Moment& now = kOpen) {
+    const int index = desk_.programme.find_button(name);
+    EXPECT_GE(index, 0) << name;
+    const ButtonEvent event{static_cast<std::uint16_t>(index + 1), true, 0};
+    return guide_.step(0.03f, {&event, 1}, now, false);
+  }
+  static constexpr agent::Moment kOpen{2, 25, 11, 11 * 60}, kNight{3, 26, 11, 20 * 60};
+  DeskOf desk_{default_programme()};
+  agent::Guide guide_;
+};
+
+// On every page, in each language: one button for the letters, one for the contrast, each on and
+// off again; 2 reads the page aloud from the first one.
+TEST_F(DefaultDesk, TwoButtonsMakeEveryPageReadable) {
+  for (const char* page : {"1", "3", "4", "5", "6", "7"}) {
+    press("1");
+    press(page);
+    EXPECT_TRUE(guide_.guidance().captions) << page;
+    EXPECT_TRUE(press("8").large_text) << page;
+    EXPECT_TRUE(press("9").high_contrast) << page;
+    EXPECT_TRUE(guide_.guidance().large_text) << page;
+    EXPECT_FALSE(press("8").large_text) << page;
+    EXPECT_FALSE(press("9").high_contrast) << page;
+  }
+  press("1");
+  EXPECT_TRUE(press("2").describes);
+}
+
+TEST_F(DefaultDesk, ATicketsCodeIsAnEventLikeAButton) {
+  const agent::Guidance& g = press("ticket");
+  EXPECT_TRUE(g.says && g.feels);
+  EXPECT_EQ(g.feel, emotion::Emotion::joy);
+  EXPECT_EQ(g.gesture, body::GestureKind::nod);
+  EXPECT_NE(desk_.programme.line(g.say, 0), nullptr);
+}
+
+TEST_F(DefaultDesk, NightIsQuieterAndTheVisitorHasASay) {
+  EXPECT_FLOAT_EQ(press("1").volume, 0.8f);
+  EXPECT_FLOAT_EQ(press("1", kNight).volume, 0.4f);
+  press("6", kNight);
+  EXPECT_GT(press("2", kNight).volume, 0.4f);
 }
 
 // The page of maps for a visitor who does not see it.
