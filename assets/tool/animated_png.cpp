@@ -141,7 +141,7 @@ std::string rows_of(const Picture& p, const Picture* before, Palette* palette) {
 
 void write_animated_png(const std::vector<Picture>& frames, unsigned frame_ms,
                         const std::string& path) {
-  if (frames.empty()) throw std::runtime_error(path + ":1: there is nothing to show");
+  if (frames.empty()) throw std::runtime_error(path + ": there is nothing to show");
   Palette palette(palette_of(frames));
   const std::uint32_t width = frames[0].width, height = frames[0].height;
   std::string out = "\x89PNG\r\n\x1A\n";

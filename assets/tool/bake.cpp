@@ -118,6 +118,7 @@ void bake_character(const BakeArgs& a) {
   const bake::Recipe recipe = bake::read_recipe(recipe_file);
   progress.step("read the base human");
   const bake::BaseHuman base(a.base.empty() ? default_base() : a.base);
+  bake::check_names(recipe, base, recipe_file);
   const auto places =
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
   progress.step("build the person");
@@ -200,6 +201,7 @@ void draw_feature_points(const BakeArgs& a) {
   const auto places =
       bake::read_feature_points(recipe_file.parent_path() / "feature_points.toml", base);
   const bake::Recipe recipe = bake::read_recipe(recipe_file);
+  bake::check_names(recipe, base, recipe_file);
   progress.step("build the person");
   const bake::Character person = bake::build_character(recipe, base, places);
   const auto point = [&](int group, int index) {

@@ -81,6 +81,14 @@ void decode(const FbaArgs& a) {
   if (body) bake::write_bap(clip, stem + ".bap");
 }
 
+AnimationClip read_texts(const std::vector<std::string>& paths) {
+  AnimationClip clip;
+  std::vector<std::string> notes;
+  for (const std::string& path : paths) bake::read_text(path, &clip, &notes);
+  for (const std::string& note : notes) warn(note);
+  return clip;
+}
+
 // The body takes what the face leaves: the finest steps that fit.
 void fit_rate(const FbaArgs& a, const stream::FbaClip& clip, stream::FbaSettings* io_settings) {
   std::vector<stream::ModelNode> nodes(1 << 20);
@@ -102,8 +110,7 @@ void fit_rate(const FbaArgs& a, const stream::FbaClip& clip, stream::FbaSettings
 }
 
 void encode(const FbaArgs& a) {
-  AnimationClip clip;
-  for (const std::string& path : a.in) bake::read_text(path, &clip);
+  AnimationClip clip = read_texts(a.in);
   std::vector<std::byte> bytes;
   if (!a.epf.empty()) {
     bytes = bake::encode_by_epf(clip, bake::read_epf(a.epf), a.epf);
@@ -146,8 +153,7 @@ void track(const FbaArgs& a) {
 }
 
 void rate(const FbaArgs& a) {
-  AnimationClip clip;
-  for (const std::string& path : a.in) bake::read_text(path, &clip);
+  AnimationClip clip = read_texts(a.in);
   if (clip.face.empty()) throw std::runtime_error(a.in.front() + ": no face; give a .fap");
   clip.body.clear();
   if (a.fps > 0.0) bake::resample(a.fps, &clip);

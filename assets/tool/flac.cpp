@@ -54,7 +54,7 @@ Spoken read_flac(const std::string& path) {
       FLAC__stream_decoder_get_state(decoder.get()) == FLAC__STREAM_DECODER_END_OF_STREAM;
   if (!whole || d.bad || d.spoken.samples.empty() || d.spoken.rate_hz < 8000)
     throw std::runtime_error(path +
-                             ":1: no whole FLAC of 1 or 2 channels and at most ten minutes; "
+                             ": no whole FLAC of 1 or 2 channels and at most ten minutes; "
                              "save it again");
   d.spoken.end_ms = static_cast<std::int32_t>(d.spoken.samples.size() * 1000 / d.spoken.rate_hz);
   return d.spoken;

@@ -152,6 +152,7 @@ float text_width(std::string_view text, float pixel_height) {
 Picture grid(const std::vector<Picture>& cells, const std::vector<std::string>& captions,
              std::uint32_t columns) {
   constexpr std::uint32_t kGap = 6, kCaption = 26;
+  constexpr float kLetters = 18.0f;
   if (cells.empty()) return {};
   const bool captioned = !captions.empty();
   const std::uint32_t cell_h = cells[0].height + (captioned ? kCaption : 0) + kGap;
@@ -161,9 +162,12 @@ Picture grid(const std::vector<Picture>& cells, const std::vector<std::string>& 
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t x = kGap + i % columns * cell_w, y = kGap + i / columns * cell_h;
     paste(cells[i], x, y, &out);
-    if (captioned && i < captions.size())
-      draw_text(captions[i], static_cast<int>(x) + 4, static_cast<int>(y + cells[i].height) + 19,
-                18.0f, &out);
+    if (!captioned || i >= captions.size()) continue;
+    // Long captions shrink to the width of their picture.
+    const float room = static_cast<float>(cells[i].width) - 4.0f;
+    const float letters = kLetters * std::min(1.0f, room / text_width(captions[i], kLetters));
+    draw_text(captions[i], static_cast<int>(x) + 4, static_cast<int>(y + cells[i].height) + 19,
+              letters, &out);
   }
   return out;
 }

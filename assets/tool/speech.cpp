@@ -88,14 +88,21 @@ void write_visemes(const SpeechArgs& a) {
 // Phonemes in order, by blanks; "_" is a pause. Each gets its share of the recording by what it
 // would last in a voice: nothing more is known.
 Spoken voice_of_phones(const std::string& path) {
-  std::istringstream words(read_text(path));
+  std::istringstream lines(read_text(path));
   Spoken out;
-  std::string ipa;
-  while (words >> ipa) {
-    const speech::Phoneme p = speech::phoneme_of(ipa);
-    out.events.push_back({Kind::phone, out.end_ms, 0, 0, ipa == "_" ? "" : ipa});
-    out.end_ms += p.begins.silent() ? 150 : (p.begins.vowel ? 110 : 70);
-  }
+  std::string line, ipa;
+  // What unknown symbols become; a voice may have some, a file written by hand should not.
+  const speech::Sound unknown = speech::phoneme_of(std::string_view("?")).begins;
+  for (int number = 1; std::getline(lines, line); ++number)
+    for (std::istringstream words(line); words >> ipa;) {
+      const speech::Phoneme p = speech::phoneme_of(ipa);
+      const bool word = ipa.size() <= 24 && printable(ipa) == ipa;
+      if (!word || (p.begins == unknown && p.ends == unknown))
+        throw std::runtime_error(path + ":" + std::to_string(number) + ": '" + ipa +
+                                 "' is no phoneme; write IPA by blanks: p a _ t a");
+      out.events.push_back({Kind::phone, out.end_ms, 0, 0, ipa == "_" ? "" : ipa});
+      out.end_ms += p.begins.silent() ? 150 : (p.begins.vowel ? 110 : 70);
+    }
   if (out.events.empty()) throw std::runtime_error(path + ": holds no phonemes; write p a _ t a");
   return out;
 }

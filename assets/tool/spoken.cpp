@@ -1,12 +1,15 @@
 #include "assets/tool/spoken.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -37,7 +40,7 @@ std::string program_path(const VoiceJob& job) {
 // The voice program at the other end of a socket; ends with this object.
 class Program {
  public:
-  explicit Program(std::string path) {
+  explicit Program(const std::string& path) : path_(path) {
     int ends[2];
     if (access(path.c_str(), X_OK) != 0 ||
         socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -45,7 +48,9 @@ class Program {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    char* arguments[] = {path.data(), nullptr};
+    // Nothing of it goes between the tool's own lines.
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    char* arguments[] = {path_.data(), nullptr};
     const int error = posix_spawn(&pid_, path.c_str(), &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
@@ -55,8 +60,9 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
   ~Program() {
-    close(socket_);
-    if (pid_ > 0) waitpid(pid_, nullptr, 0);  // It ends when the socket closes.
+    close(socket_);  // A voice ends with that; another program may not.
+    if (pid_ > 0 && silent_) kill(pid_, SIGKILL);
+    if (pid_ > 0) waitpid(pid_, nullptr, 0);
   }
 
   void send_all(const std::string& bytes) const {
@@ -66,8 +72,11 @@ class Program {
       sent += static_cast<std::size_t>(n);
     }
   }
-  wire::Record next() {
+  // The next record, which has to begin to come within `wait_s`.
+  wire::Record next(int wait_s) {
     wire::Record record;
+    const timeval wait{wait_s, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
     for (;;) {
       const Status status = reader_->next(&record);
       if (status.ok()) return record;
@@ -75,14 +84,20 @@ class Program {
         throw std::runtime_error("caryatid-voice sent what no voice sends; build it again");
       const auto room = reader_->room();
       const ssize_t n = recv(socket_, room.data(), room.size(), 0);
+      silent_ = n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+      if (silent_)
+        throw std::runtime_error(path_ + ": said nothing for " + std::to_string(wait_s) +
+                                 " s; is it caryatid-voice?");
       if (n <= 0) throw std::runtime_error("caryatid-voice ended; is espeak-ng-data installed?");
       reader_->took(static_cast<std::size_t>(n));
     }
   }
 
  private:
+  std::string path_;
   pid_t pid_ = -1;
   int socket_ = -1;
+  bool silent_ = false;
   std::unique_ptr<wire::Reader> reader_ = std::make_unique<wire::Reader>();
 };
 
@@ -156,8 +171,9 @@ Spoken speak(const VoiceJob& job) {
   Program program(program_path(job));
   program.send_all(request(job));
   Spoken out;
-  while (take(program.next(), job, &out)) {
-  }
+  // It says hello at once; then it may have to think about a long sentence.
+  constexpr int kHello_s = 8, kSentence_s = 60;
+  for (int wait_s = kHello_s; take(program.next(wait_s), job, &out);) wait_s = kSentence_s;
   std::stable_sort(out.events.begin(), out.events.end(),
                    [](const auto& a, const auto& b) { return a.time_ms < b.time_ms; });
   return out;
@@ -189,9 +205,9 @@ Spoken read_wav(const std::string& path) {
   platform::WavFormat format;
   const Status status = platform::parse_wav(std::as_bytes(std::span(bytes)), bytes.size(), &format);
   if (!status.ok())
-    throw std::runtime_error(
-        path + ":1: " + platform::wav_refusal_text(platform::WavRefusal(status.detail)) +
-        "; save it again as 16-bit WAV");
+    throw std::runtime_error(path + ": " +
+                             platform::wav_refusal_text(platform::WavRefusal(status.detail)) +
+                             "; save it again as 16-bit WAV");
   Spoken out;
   out.rate_hz = format.rate_hz;
   out.end_ms = static_cast<std::int32_t>(format.frames * 1000 / format.rate_hz);
@@ -211,7 +227,10 @@ Spoken read_wav(const std::string& path) {
 Spoken read_recording(const std::string& path) {
   char start[4] = {};
   std::ifstream(path, std::ios::binary).read(start, sizeof start);
-  return std::memcmp(start, "fLaC", 4) == 0 ? read_flac(path) : read_wav(path);
+  const bool flac = std::memcmp(start, "fLaC", 4) == 0;
+  if (!flac && path.ends_with(".flac"))
+    throw std::runtime_error(path + ": is no FLAC file; save it again");
+  return flac ? read_flac(path) : read_wav(path);
 }
 
 std::string timing_text(const Spoken& spoken) {

@@ -27,7 +27,8 @@ foreach(source ${fuzz_sources})
   if(reader STREQUAL mesh OR reader STREQUAL points)
     file(GLOB mesh_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/assets/bake/mesh_io/*.cpp
       ${CMAKE_SOURCE_DIR}/assets/bake/simplify/*.cpp)
-    target_sources(${name} PRIVATE ${mesh_sources})
+    target_sources(${name} PRIVATE ${mesh_sources}
+      ${CMAKE_SOURCE_DIR}/assets/bake/files/files.cpp)
     target_include_directories(${name} SYSTEM PRIVATE /usr/include/eigen3)
   endif()
   if(reader STREQUAL points)

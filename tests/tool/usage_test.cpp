@@ -59,6 +59,31 @@ TEST_F(Tool, TheHelpOfTheSubcommandIsNamed) {
   EXPECT_TRUE(version.output.starts_with("caryatid-tool ")) << version.output;
 }
 
+TEST_F(Tool, AVoiceThatSaysNothingIsNamed) {
+  write("mute", "#!/bin/sh\nexec sleep 600\n");
+  std::filesystem::permissions(folder_ / "mute", std::filesystem::perms::owner_all);
+  refuses("speech bake Hi -o a --voice ./mute", 1, "./mute: said nothing for 8 s");
+  EXPECT_FALSE(exists("a.wav"));
+}
+
+TEST_F(Tool, PhonemesAreIpa) {
+  write("p", "p a _\nt #\n");
+  write("a.wav", "RIFF");
+  refuses("speech time a.wav --phones p -o b", 1, "a.wav: ");
+  write("a.flac", "RIFF");
+  refuses("speech time a.flac --phones p -o b", 1, "a.flac: is no FLAC file");
+  std::string wav(
+      "RIFF\x24\x10\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x40\x1F\0\0\x80\x3E\0\0\2\0\x10\0data"
+      "\0\x10\0\0",
+      44);
+  write("a.wav", wav + std::string(4096, '\5'));
+  refuses("speech time a.wav --phones p -o b", 1, "p:2: '#' is no phoneme");
+  write("p", "p a\x02 \xff\n");
+  refuses("speech time a.wav --phones p -o b", 1, "p:1: 'a\\x02' is no phoneme");
+  write("p", "p a _ t a\n");
+  EXPECT_EQ(run("speech time a.wav --phones p -o b").exit_code, 0);
+}
+
 TEST_F(Tool, BytesOfAFileDoNothingToTheTerminal) {
   write("g.epf", "\x1b[31mred 1\n");
   refuses("fba encode t.fap -o a.fba --epf g.epf", 1, "\\x1B[31mred");

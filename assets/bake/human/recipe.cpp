@@ -2,51 +2,105 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
+
+#include "assets/bake/files/files.h"
+#include "core/face/fap_fill.h"
 
 namespace caryatid::bake {
 namespace {
 
-float number(const toml::table& table, const char* key, float otherwise) {
-  return table[key].value<float>().value_or(otherwise);
+// A fault at a place of the file; read_recipe() puts the file's name before it.
+struct Fault : std::runtime_error {
+  Fault(const toml::node& node, const std::string& what)
+      : std::runtime_error(what), line(node.source().begin.line) {}
+  std::uint32_t line;
+};
+
+struct Range {
+  double low, high;
+};
+constexpr Range kShare{0.0, 1.0};
+constexpr Range kFactor{0.0, 10.0};
+
+std::string words(const Range& range) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%g to %g", range.low, range.high);
+  return text;
 }
 
-Vec3 triple(const toml::table& table, const char* key, Vec3 otherwise) {
-  const toml::array* values = table[key].as_array();
-  if (!values) return otherwise;
-  if (values->size() != 3) throw std::runtime_error(std::string(key) + ": wants three numbers");
+double checked(const std::string& key, const toml::node& node, const Range& range) {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !(*value >= range.low && *value <= range.high))
+    throw Fault(node, key + ": wants a number from " + words(range));
+  return *value;
+}
+
+float number(const toml::table& table, const char* key, float otherwise, const Range& range) {
+  const toml::node* node = table.get(key);
+  return node == nullptr ? otherwise : static_cast<float>(checked(key, *node, range));
+}
+
+Vec3 triple(const toml::table& table, const char* key, Vec3 otherwise, const Range& range) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return otherwise;
+  const toml::array* values = node->as_array();
+  if (values == nullptr || values->size() != 3)
+    throw Fault(*node, std::string(key) + ": wants three numbers from " + words(range));
   Vec3 out{0};
   for (std::size_t i = 0; i < 3; ++i)
-    out[static_cast<int>(i)] = (*values)[i].value<float>().value_or(0.0f);
+    out[static_cast<int>(i)] = static_cast<float>(checked(key, *values->get(i), range));
   return out;
 }
 
 std::string text(const toml::table& table, const char* key) {
-  return table[key].value<std::string>().value_or("");
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return "";
+  const auto value = node->value<std::string>();
+  if (!value) throw Fault(*node, std::string(key) + ": wants a text in quotes");
+  return *value;
+}
+
+std::string needed_text(const toml::table& table, const char* key) {
+  std::string value = text(table, key);
+  if (value.empty())
+    throw Fault(table, std::string(key) + ": missing; write " + key + " = \"...\"");
+  return value;
+}
+
+const toml::table* sub_table(const toml::table& table, const char* key) {
+  const toml::node* node = table.get(key);
+  if (node != nullptr && !node->is_table())
+    throw Fault(*node, std::string(key) + ": wants a table; write [" + key + "]");
+  return node == nullptr ? nullptr : node->as_table();
 }
 
 // A misspelt key must not silently mean its default.
 void expect_keys(const toml::table& table, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
-      throw std::runtime_error("unknown key " + std::string(key.str()));
+      throw Fault(value, "unknown key " + std::string(key.str()));
 }
 
 Macro read_macro(const toml::table& t) {
   expect_keys(t, {"female", "age_years", "muscle", "weight", "height", "proportions", "cup",
                   "firmness", "caucasian", "asian", "african"});
   Macro m;
-  m.female = number(t, "female", m.female);
-  m.age_years = number(t, "age_years", m.age_years);
-  m.muscle = number(t, "muscle", m.muscle);
-  m.weight = number(t, "weight", m.weight);
-  m.height = number(t, "height", m.height);
-  m.proportions = number(t, "proportions", m.proportions);
-  m.cup = number(t, "cup", m.cup);
-  m.firmness = number(t, "firmness", m.firmness);
-  m.caucasian = number(t, "caucasian", m.caucasian);
-  m.asian = number(t, "asian", m.asian);
-  m.african = number(t, "african", m.african);
+  m.age_years = number(t, "age_years", m.age_years, {25.0, 90.0});
+  const auto slider = [&t](const char* key, float* io) { *io = number(t, key, *io, kShare); };
+  slider("female", &m.female);
+  slider("muscle", &m.muscle);
+  slider("weight", &m.weight);
+  slider("height", &m.height);
+  slider("proportions", &m.proportions);
+  slider("cup", &m.cup);
+  slider("firmness", &m.firmness);
+  slider("caucasian", &m.caucasian);
+  slider("asian", &m.asian);
+  slider("african", &m.african);
+  if (m.caucasian + m.asian + m.african <= 0.0f)
+    throw Fault(t, "caucasian, asian, african: one of them must be above 0");
   return m;
 }
 
@@ -54,17 +108,17 @@ SkinRecipe read_skin(const toml::table& t) {
   expect_keys(t, {"texture", "tint", "lips", "lips_strength", "stubble", "lash_line", "eye_shadow",
                   "blush", "hairline_m", "lines", "tights"});
   SkinRecipe s;
-  s.texture = text(t, "texture");
-  s.tint = triple(t, "tint", s.tint);
-  s.lips = triple(t, "lips", s.lips);
-  s.lips_strength = number(t, "lips_strength", s.lips_strength);
-  s.stubble = number(t, "stubble", s.stubble);
-  s.lash_line = number(t, "lash_line", s.lash_line);
-  s.eye_shadow = number(t, "eye_shadow", s.eye_shadow);
-  s.blush = number(t, "blush", s.blush);
-  s.tights = triple(t, "tights", s.tights);
-  s.lines = number(t, "lines", s.lines);
-  s.hairline_m = number(t, "hairline_m", s.hairline_m);
+  s.texture = needed_text(t, "texture");
+  s.tint = triple(t, "tint", s.tint, kFactor);
+  s.lips = triple(t, "lips", s.lips, kShare);
+  s.lips_strength = number(t, "lips_strength", s.lips_strength, kShare);
+  s.stubble = number(t, "stubble", s.stubble, kShare);
+  s.lash_line = number(t, "lash_line", s.lash_line, kShare);
+  s.eye_shadow = number(t, "eye_shadow", s.eye_shadow, kShare);
+  s.blush = number(t, "blush", s.blush, kShare);
+  s.tights = triple(t, "tights", s.tights, {-1.0, 10.0});
+  s.lines = number(t, "lines", s.lines, kFactor);
+  s.hairline_m = number(t, "hairline_m", s.hairline_m, {0.0, 0.1});
   return s;
 }
 
@@ -72,45 +126,64 @@ PartRecipe read_part(const toml::table& t) {
   expect_keys(t, {"proxy", "texture", "tint", "saturation", "contrast", "softness", "gloss",
                   "shininess", "grow_m", "drop_above_m", "least_quads", "upper_only"});
   PartRecipe p;
-  p.proxy = text(t, "proxy");
+  p.proxy = needed_text(t, "proxy");
   p.texture = text(t, "texture");
-  p.tint = triple(t, "tint", p.tint);
-  p.saturation = number(t, "saturation", p.saturation);
-  p.contrast = number(t, "contrast", p.contrast);
-  p.softness = number(t, "softness", p.softness);
-  p.gloss = number(t, "gloss", p.gloss);
-  p.shininess = number(t, "shininess", p.shininess);
-  p.grow_m = number(t, "grow_m", p.grow_m);
-  p.drop_above_m = number(t, "drop_above_m", p.drop_above_m);
-  p.least_quads = t["least_quads"].value_or(0);
-  p.upper_only = t["upper_only"].value_or(false);
+  p.tint = triple(t, "tint", p.tint, kFactor);
+  p.saturation = number(t, "saturation", p.saturation, kFactor);
+  p.contrast = number(t, "contrast", p.contrast, kFactor);
+  p.softness = number(t, "softness", p.softness, kShare);
+  p.gloss = number(t, "gloss", p.gloss, kFactor);
+  p.shininess = number(t, "shininess", p.shininess, {1.0, 1000.0});
+  p.grow_m = number(t, "grow_m", p.grow_m, {-0.1, 0.1});
+  p.drop_above_m = number(t, "drop_above_m", p.drop_above_m, {0.0, 3.0});
+  p.least_quads = static_cast<int>(number(t, "least_quads", 0.0f, {0.0, 1e6}));
+  if (const toml::node* node = t.get("upper_only")) {
+    if (!node->is_boolean()) throw Fault(*node, "upper_only: wants true or false");
+    p.upper_only = node->value_or(false);
+  }
   return p;
+}
+
+// Values beyond what a stream can say would be cut by the mixer.
+std::pair<int, float> read_rest_fap(const std::string& key, const toml::node& node) {
+  int fap = 0;
+  const char* end = key.data() + key.size();
+  const auto [at, error] = std::from_chars(key.data(), end, fap);
+  if (error != std::errc{} || at != end || fap < 3 || fap > face::kFapCount)
+    throw Fault(node, "rest_face: no FAP " + key + "; 3 to 68 there are");
+  face::FapFrame low, high;
+  low.set(fap, -1e9f);
+  high.set(fap, 1e9f);
+  face::limit_to_coding_range(&low);
+  face::limit_to_coding_range(&high);
+  return {fap, static_cast<float>(checked("rest_face: " + key, node,
+                                          {double{low.get(fap)}, double{high.get(fap)}}))};
 }
 
 Recipe read_table(const toml::table& t) {
   expect_keys(t, {"name", "macro", "targets", "skin", "eyes", "part", "rest_face"});
   Recipe out;
-  out.name = text(t, "name");
-  if (out.name.empty()) throw std::runtime_error("name: missing");
-  if (const auto* macro = t["macro"].as_table()) out.macro = read_macro(*macro);
-  if (const auto* targets = t["targets"].as_table())
-    for (const auto& [key, value] : *targets)
-      out.targets.push_back({std::string(key.str()), value.value<float>().value_or(0.0f)});
-  if (const auto* skin = t["skin"].as_table()) out.skin = read_skin(*skin);
-  if (const auto* eyes = t["eyes"].as_table()) {
-    expect_keys(*eyes, {"iris"});
-    out.eyes.iris = triple(*eyes, "iris", out.eyes.iris);
-  }
-  if (const auto* parts = t["part"].as_array())
-    for (const auto& part : *parts)
-      if (const auto* table = part.as_table()) out.parts.push_back(read_part(*table));
-  if (const auto* faps = t["rest_face"].as_table())
-    for (const auto& [key, value] : *faps) {
-      const int fap = std::atoi(std::string(key.str()).c_str());
-      if (fap < 3 || fap > 68)
-        throw std::runtime_error("rest_face: no FAP " + std::string(key.str()));
-      out.rest_face.emplace_back(fap, value.value<float>().value_or(0.0f));
+  out.name = needed_text(t, "name");
+  if (const auto* macro = sub_table(t, "macro")) out.macro = read_macro(*macro);
+  if (const auto* targets = sub_table(t, "targets"))
+    for (const auto& [key, value] : *targets) {
+      const std::string name(key.str());
+      out.targets.push_back({name, static_cast<float>(checked(name, value, {-1.0, 1.0}))});
+      out.target_lines.push_back(value.source().begin.line);
     }
+  if (const auto* skin = sub_table(t, "skin")) out.skin = read_skin(*skin);
+  if (const auto* eyes = sub_table(t, "eyes")) {
+    expect_keys(*eyes, {"iris"});
+    out.eyes.iris = triple(*eyes, "iris", out.eyes.iris, kShare);
+  }
+  if (const toml::node* parts = t.get("part")) {
+    if (!parts->is_array_of_tables()) throw Fault(*parts, "part: wants tables; write [[part]]");
+    for (const toml::node& part : *parts->as_array())
+      out.parts.push_back(read_part(*part.as_table()));
+  }
+  if (const auto* faps = sub_table(t, "rest_face"))
+    for (const auto& [key, value] : *faps)
+      out.rest_face.push_back(read_rest_fap(std::string(key.str()), value));
   return out;
 }
 
@@ -130,14 +203,27 @@ Shares three_stops(float value, const char* low, const char* middle, const char*
 }  // namespace
 
 Recipe read_recipe(const std::filesystem::path& file) {
+  const std::string content = read_file(file);
   try {
-    return read_table(toml::parse_file(file.string()));
+    return read_table(toml::parse(content, file.string()));
+  } catch (const Fault& fault) {
+    throw std::runtime_error(file.string() + ":" + std::to_string(fault.line) + ": " +
+                             fault.what());
   } catch (const toml::parse_error& error) {
     throw std::runtime_error(file.string() + ":" + std::to_string(error.source().begin.line) +
                              ": " + std::string(error.description()));
-  } catch (const std::exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
   }
+}
+
+void check_names(const Recipe& recipe, const BaseHuman& base, const std::filesystem::path& file) {
+  if (recipe.skin.texture.empty())
+    throw std::runtime_error(file.string() + ": [skin] texture: missing; write texture = \"...\"");
+  for (std::size_t i = 0; i < recipe.targets.size(); ++i) try {
+      (void)expand_target(recipe.targets[i], base);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(recipe.target_lines[i]) + ": " +
+                               error.what());
+    }
 }
 
 std::vector<TargetWeight> macro_targets(const Macro& macro, const BaseHuman& base) {
@@ -192,7 +278,8 @@ std::vector<TargetWeight> expand_target(const TargetWeight& target, const BaseHu
   const std::string leaf = target.name.substr(slash + 1);
   const std::string left = folder + "l-" + leaf, right = folder + "r-" + leaf;
   if (!base.has_target(left) || !base.has_target(right))
-    throw std::runtime_error("targets: the base human has no " + target.name);
+    throw std::runtime_error("targets: the base human has no " + target.name +
+                             "; name one of its own");
   return {{left, target.weight}, {right, target.weight}};
 }
 

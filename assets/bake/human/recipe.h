@@ -62,6 +62,7 @@ struct Recipe {
   std::string name;
   Macro macro;
   std::vector<TargetWeight> targets;
+  std::vector<std::uint32_t> target_lines;  // Of the file, for messages; as long as `targets`.
   SkinRecipe skin;
   EyeRecipe eyes;
   std::vector<PartRecipe> parts;
@@ -69,6 +70,10 @@ struct Recipe {
 };
 
 Recipe read_recipe(const std::filesystem::path& file);
+
+// Throws, with file and line, unless the base has the targets that the recipe of `file` names, and
+// a skin is named.
+void check_names(const Recipe& recipe, const BaseHuman& base, const std::filesystem::path& file);
 
 // The targets that a macro stands for, with their weights. Names that the base does not have are
 // left out (not every combination exists).

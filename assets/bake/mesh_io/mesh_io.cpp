@@ -378,7 +378,7 @@ MeshFormat format_of(const std::filesystem::path& path) {
   if (e == ".obj" || e == ".OBJ") return MeshFormat::obj;
   if (e == ".off" || e == ".OFF") return MeshFormat::off;
   if (e == ".ply" || e == ".PLY") return MeshFormat::ply;
-  throw MeshError(path.string() + ":1: the name must end in .obj, .off or .ply");
+  throw MeshError(path.string() + ": the name must end in .obj, .off or .ply");
 }
 
 Surface parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name) {

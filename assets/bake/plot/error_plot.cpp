@@ -68,7 +68,7 @@ Chart error_chart(const std::string& text, const std::string& file) {
   }
   if (meshes.empty())
     throw std::runtime_error(file +
-                             ":1: no errors of meshes; make it with caryatid-bench --filter "
+                             ": no errors of meshes; make it with caryatid-bench --filter "
                              "simplify --json FILE");
   Chart chart;
   chart.title =

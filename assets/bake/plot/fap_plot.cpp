@@ -49,8 +49,7 @@ Curves read_curves(const std::string& text, const std::string& file) {
   if (status.code != Code::not_ready)
     throw std::runtime_error(file + ":" + std::to_string(reader.line()) + ": " +
                              stream::describe_text_fault(status) + "; mend or shorten the file");
-  if (curves.frames.empty())
-    throw std::runtime_error(file + ":1: no frames; give a .fap text file");
+  if (curves.frames.empty()) throw std::runtime_error(file + ": no frames; give a .fap text file");
   return curves;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "assets/bake/files/files.h"
@@ -21,14 +22,49 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+// What a header or the frames' numbers promise and the frames do not hold; the frames count.
+// Numbers from 0 or 1 on are usual.
+class NumberCheck {
+ public:
+  NumberCheck(const std::string& path, std::vector<std::string>* out) : path_(path), out_(out) {}
+  void frame(std::int32_t number, std::uint32_t line) {
+    const bool follows = count_ == 0 ? number == 0 || number == 1 : number == last_ + 1;
+    if (!follows && !said_)
+      note(line, "frame " + std::to_string(count_ + 1) + " is numbered " + std::to_string(number) +
+                     (count_ == 0 ? "" : " behind " + std::to_string(last_)) +
+                     "; frames are taken in the order of the file");
+    said_ = said_ || !follows;
+    last_ = number;
+    ++count_;
+  }
+  void end(std::uint32_t promised) {
+    if (promised != count_)
+      note(1, "the header promises " + std::to_string(promised) + " frames, the file holds " +
+                  std::to_string(count_) + "; correct its last word");
+  }
+
+ private:
+  void note(std::uint32_t line, const std::string& what) {
+    if (out_) out_->push_back(path_ + ":" + std::to_string(line) + ": " + what);
+  }
+  const std::string& path_;
+  std::vector<std::string>* out_;
+  std::int64_t last_ = 0;
+  std::uint32_t count_ = 0;
+  bool said_ = false;
+};
+
 template <class Reader, class Frame>
-double read_frames(const std::string& path, std::vector<Frame>* out) {
+double read_frames(const std::string& path, std::vector<Frame>* out,
+                   std::vector<std::string>* out_notes) {
   const std::string text = read_file(path);
   Reader reader(text);
   Frame frame;
   auto seen = frame.mask;
   Status status;
+  NumberCheck check(path, out_notes);
   while ((status = reader.next(&frame)).ok()) {
+    check.frame(reader.frame_index(), reader.line());
     for (std::size_t n = 1; n < frame.value.size(); ++n)
       if (frame.mask.test(n)) seen.set(n);
     Frame whole = frame;
@@ -39,6 +75,7 @@ double read_frames(const std::string& path, std::vector<Frame>* out) {
     throw std::runtime_error(path + ":" + std::to_string(reader.line()) + ": " +
                              stream::describe_text_fault(status));
   if (out->empty()) throw std::runtime_error(path + ": no frame in it; write at least one");
+  check.end(reader.header().frame_count);
   return static_cast<double>(reader.header().frames_per_second);
 }
 
@@ -82,14 +119,15 @@ void resample(double frames_per_second, AnimationClip* io_clip) {
   io_clip->frames_per_second = frames_per_second;
 }
 
-void read_text(const std::string& path, AnimationClip* io_clip) {
+void read_text(const std::string& path, AnimationClip* io_clip,
+               std::vector<std::string>* out_notes) {
   AnimationClip read;
   const bool is_face = ends_with(path, ".fap");
   if (!is_face && !ends_with(path, ".bap"))
     throw std::runtime_error(path + ": not a .fap or .bap; give animation text");
   read.frames_per_second =
-      is_face ? read_frames<stream::FapTextReader, face::FapFrame>(path, &read.face)
-              : read_frames<stream::BapTextReader, body::BapFrame>(path, &read.body);
+      is_face ? read_frames<stream::FapTextReader, face::FapFrame>(path, &read.face, out_notes)
+              : read_frames<stream::BapTextReader, body::BapFrame>(path, &read.body, out_notes);
   if (io_clip->size() == 0) {
     *io_clip = std::move(read);
     return;
@@ -129,15 +167,25 @@ AnimationClip read_fba(const std::string& path, const stream::FbaDecoder::Option
   face::FapFrame face;
   body::BapFrame body;
   bool has_face = false, has_body = false;
+  std::optional<std::size_t> lost_from;  // The byte where damage began.
+  const auto say_lost = [&](std::size_t to, const std::string& then) {
+    report.faults.push_back("bytes " + std::to_string(*lost_from) + " to " + std::to_string(to) +
+                            " of " + std::to_string(text.size()) + " are lost; " + then);
+    lost_from.reset();
+  };
   while (true) {
     const std::size_t position = decoder.position_bits();
     const Status status = decoder.next(&plane, &face, &body);
     if (!status.ok()) {
       if (status.code == Code::not_ready) break;
+      if (!lost_from) lost_from = position / 8;
       report.faults.push_back("bit " + std::to_string(position) + ": " +
                               stream::describe_fba_fault(status));
       continue;
     }
+    if (lost_from)
+      say_lost(decoder.position_bits() / 8,
+               "decoding goes on there, after " + std::to_string(report.planes) + " planes");
     ++report.planes;
     report.intra_planes += plane.intra ? 1u : 0u;
     has_face = has_face || plane.face;
@@ -148,6 +196,8 @@ AnimationClip read_fba(const std::string& path, const stream::FbaDecoder::Option
       if (has_body) clip.body.push_back(body);
     }
   }
+  if (lost_from)
+    say_lost(text.size(), "that is the rest, after " + std::to_string(report.planes) + " planes");
   report.damaged_planes = decoder.damaged_planes();
   report.rate = decoder.rate();
   report.coding = decoder.coding();

@@ -22,8 +22,10 @@ struct AnimationClip {
 // All of these throw std::runtime_error "FILE:LINE: what is wrong; cure" (no line for bytes).
 
 // Reads .fap or .bap by its ending and adds it to the clip. A second text with another rate is
-// resampled to the clip's, each frame holding until the next.
-void read_text(const std::string& path, AnimationClip* io_clip);
+// resampled to the clip's, each frame holding until the next. out_notes gets a line "FILE:LINE:
+// ..." for a header or numbers of frames that do not fit the frames, which count.
+void read_text(const std::string& path, AnimationClip* io_clip,
+               std::vector<std::string>* out_notes = nullptr);
 void write_fap(const AnimationClip& clip, const std::string& path);
 void write_bap(const AnimationClip& clip, const std::string& path);
 

@@ -33,6 +33,35 @@ TEST(Recipe, MisspeltKeysAreRefused) {
   EXPECT_THROW(read_recipe(written("name='x'\nhat=1\n")), std::runtime_error);
 }
 
+std::string refusal(const std::string& text) {
+  try {
+    (void)read_recipe(written(text));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Recipe, NumbersAreInRangeAndTheLineIsNamed) {
+  for (const char* line :
+       {"[macro]\nage_years='x'", "[macro]\nage_years=9999", "[macro]\nage_years=nan",
+        "[macro]\nfemale=inf", "[macro]\ncaucasian=0", "[targets]\n'nose/a'=50",
+        "[targets]\n'nose/a'='x'", "[rest_face]\n3=99999", "[rest_face]\n2=1", "[rest_face]\n3x=1",
+        "[skin]\nlips=[1,2]", "[skin]\ntexture=5", "[eyes]\niris=[0,nan,1]", "[[part]]\nproxy=''",
+        "macro=5\n", "part=[1]"}) {
+    const std::string said = refusal(std::string("name='x'\n") + line + "\n");
+    EXPECT_NE(said.find("recipe.toml:"), std::string::npos) << line << ": " << said;
+    EXPECT_TRUE(said.find(":2: ") != std::string::npos || said.find(":3: ") != std::string::npos)
+        << line << ": " << said;
+  }
+}
+
+TEST(Recipe, TheHouseRecipesAreInRange) {
+  for (const char* name : {"woman.toml", "man.toml"})
+    EXPECT_NO_THROW(
+        (void)read_recipe(CARYATID_SOURCE_DIR "/assets/characters/" + std::string(name)));
+}
+
 TEST(Recipe, NeedsAName) { EXPECT_THROW(read_recipe(written("[macro]\n")), std::runtime_error); }
 TEST(Recipe, BrokenTomlIsRefused) {
   EXPECT_THROW(read_recipe(written("name=")), std::runtime_error);
