@@ -211,6 +211,7 @@ bool Kiosk::start() {
   if ((pack_refused_ && !desk_.open_notice(options_.config)) || !desk_.take_memory(memory_.arena()))
     return refuse("the built-in programme is damaged; build again");
   if (!open_renderer() || !open_outputs() || !open_devices()) return false;
+  if (options_.virtual_clock) config_.screen.wander = 0.0f;  // Replays are compared by pixels.
   care_ = ScreenCare(config_.screen);
   agent_ = std::make_unique<agent::Agent>(options_.seed);
   open_speaker();
@@ -391,9 +392,8 @@ void Kiosk::aim_camera(float dt_s) {
       {box.x0 / seen.width, box.y0 / seen.height, box.x1 / seen.width, box.y1 / seen.height});
 }
 
-// Dims and wanders what draw() composes, and switches the screen. A replay shows plain pictures.
+// Dims and wanders what draw() composes, and switches the screen.
 void Kiosk::care_for_screen(float dt_s, const agent::Intentions& will) {
-  if (options_.virtual_clock) return;
   const bool moving = stage_ && stage_->moving();
   // Closed, she leaves before it gets dark.
   care_.step(dt_s, will.busy || moving || player_.active(), pressed_us_ != 0,
