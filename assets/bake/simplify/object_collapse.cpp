@@ -7,7 +7,7 @@
 //                          the old surface
 //   along a seam           anywhere; both wedge pairs are blended along the edge
 //   along a loop           onto the cheaper end, while the loop keeps its minimum
-//   free - seam/loop/fixed onto the latter; its attributes stay bit for bit
+//   free - seam/loop/fixed onto the latter; its attributes stay bit for bit, but for baked shade
 //   fixed - fixed and all else: never
 //
 // On a mesh that is symmetric about x = 0 the mirrored edge follows each collapse, to the mirrored
@@ -41,6 +41,7 @@ constexpr double kMirrorTolerance_m = 2e-5;
 // Shade that is baked into vertices resists as if it were relief: so deep where none of the sky is
 // seen. Without it the fold of the upper lid spreads over half the lid at 680 faces.
 constexpr float kShadeDepth_m = 0.004f;
+constexpr float kLeastShade = 1.0f / 255.0f;  // As fine as it is stored.
 constexpr std::uint16_t kShadeChannel = 0xFFFF;
 
 struct Loop {
@@ -104,6 +105,12 @@ class ObjectCollapse {
   void refresh_around(std::uint32_t v);
   void collapse(const Plan& plan);
   void update_loops(std::uint32_t keep, std::uint32_t gone);
+  struct Shade {
+    double area = 0, sum = 0, low = 1, high = 0;
+    void add(const Shade& other);
+  };
+  Shade shade_of(std::uint32_t h, std::uint32_t without) const;
+  void keep_shade(std::uint32_t keep, const Shade& before, SplitRecord* record);
   std::uint32_t add_version(std::uint32_t wedge, VertexVersion version, SplitRecord* record);
   ObjectHistory finish();
 
@@ -494,6 +501,57 @@ void ObjectCollapse::update_loops(std::uint32_t keep, std::uint32_t gone) {
   loop_edges_[gone].clear();
 }
 
+// Area and baked shade (occlusion by area) of a triangle, that of `without` left out.
+ObjectCollapse::Shade ObjectCollapse::shade_of(std::uint32_t h, std::uint32_t without) const {
+  const std::uint32_t e[3] = {h, next_in_triangle(h), prev_in_triangle(h)};
+  const Vec3d& a = position_[mesh_.from[e[0]]];
+  Shade out;
+  out.area =
+      0.5 * glm::length(cross(position_[mesh_.from[e[1]]] - a, position_[mesh_.from[e[2]]] - a));
+  for (const std::uint32_t corner : e) {
+    const auto occlusion = static_cast<double>(versions_[version_[wedge_[corner]]].occlusion);
+    if (mesh_.from[corner] != without) out.sum += out.area / 3 * occlusion;
+    out.low = std::min(out.low, occlusion);
+    out.high = std::max(out.high, occlusion);
+  }
+  return out;
+}
+
+void ObjectCollapse::Shade::add(const Shade& other) {
+  area += other.area;
+  sum += other.sum;
+  low = std::min(low, other.low);
+  high = std::max(high, other.high);
+}
+
+// Gives what now stands at `keep` the shade with which the surroundings are as dark as `before`: a
+// dark fold that triangles around it outgrow would darken all of them. Position and all else stay.
+void ObjectCollapse::keep_shade(std::uint32_t keep, const Shade& before, SplitRecord* record) {
+  if (!(before.high > before.low)) return;
+  Shade after;
+  mesh_.for_fan(keep, [&](std::uint32_t g) { after.add(shade_of(g, keep)); });
+  if (!(after.area > 0.0) || !(before.area > 0.0)) return;
+  const double wanted = before.sum / before.area * after.area;
+  const auto shade = static_cast<float>(
+      std::clamp(3 * (wanted - after.sum) / after.area, before.low, before.high));
+  std::set<std::uint32_t> wedges;
+  mesh_.for_fan(keep, [&](std::uint32_t g) { wedges.insert(wedge_[g]); });
+  for (const SplitRecord::Change& c : record->changed) wedges.insert(c.slot);
+  if (wedges.size() > 2) return;  // More than a record holds: where seams meet.
+  for (const std::uint32_t wedge : wedges) {
+    VertexVersion version = versions_[version_[wedge]];
+    if (std::abs(version.occlusion - shade) < kLeastShade) continue;
+    const bool made = std::any_of(record->changed.begin(), record->changed.end(),
+                                  [wedge](const auto& c) { return c.slot == wedge; });
+    if (made) {
+      versions_[version_[wedge]].occlusion = shade;
+      continue;
+    }
+    version.occlusion = shade;
+    add_version(wedge, std::move(version), record);
+  }
+}
+
 void ObjectCollapse::collapse(const Plan& plan) {
   const std::uint32_t h = plan.half_edge, back = mesh_.twin[h];
   const std::uint32_t keep = mesh_.from[h], gone = mesh_.to(h);
@@ -503,6 +561,8 @@ void ObjectCollapse::collapse(const Plan& plan) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs = {
       {wedge_[h], wedge_[next_in_triangle(h)]}};
   if (seam_edge(h)) pairs.push_back({wedge_[next_in_triangle(back)], wedge_[back]});
+  Shade shade;
+  for_edge_triangles(mesh_, h, [&](std::uint32_t g) { shade.add(shade_of(g, kNone)); });
   const double s = edge_parameter(h, plan.x);
   std::vector<VertexVersion> made;
   if (plan.kind == Kind::seam)
@@ -546,6 +606,7 @@ void ObjectCollapse::collapse(const Plan& plan) {
   position_[keep] = Vec3d(Vec3(plan.x));  // What is stored is what later steps see.
   live_triangles_ -= static_cast<std::uint32_t>(record.triangles.size());
   update_loops(keep, gone);
+  keep_shade(keep, shade, &record);
   records_.push_back(std::move(record));
   border_[keep] = mesh_.on_border(keep);
   classify(keep);

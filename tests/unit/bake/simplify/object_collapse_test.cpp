@@ -120,6 +120,37 @@ TEST(ObjectCollapse, BakedShadeResistsAsReliefDoes) {
   EXPECT_LT(far, 0.3);
 }
 
+// A dark dot whose vertex may not go would darken all the triangles that grow around it.
+TEST(ObjectCollapse, ADarkDotStaysAsDarkAsItWasOnTheWhole) {
+  Object object = object_of(grid(20, 20, 0.0));
+  object.mesh.occlusion.assign(object.mesh.position_m.size(), 0.0f);
+  for (Vec3& n : object.mesh.normal) n = {0, 0, 1};
+  std::uint32_t dot = 0;
+  for (std::uint32_t v = 0; v < object.mesh.position_m.size(); ++v)
+    if (glm::length(object.mesh.position_m[v] - Vec3{1, 1, 0}) <
+        glm::length(object.mesh.position_m[dot] - Vec3{1, 1, 0}))
+      dot = v;
+  object.mesh.occlusion[dot] = 1.0f;
+  object.locked.push_back(dot);
+  const ObjectHistory h = simplify_object(object, {.base_triangles = 60});
+  const auto shade = [](const auto& triangles, auto&& at, auto&& dark) {
+    double sum = 0, area = 0;
+    for (const auto& t : triangles) {
+      const auto a = glm::length(glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])));
+      area += static_cast<double>(a);
+      for (const std::uint32_t v : t) sum += static_cast<double>(a * dark(v)) / 3;
+    }
+    return sum / area;
+  };
+  const double before = shade(
+      object.mesh.triangles, [&](std::uint32_t v) { return object.mesh.position_m[v]; },
+      [&](std::uint32_t v) { return object.mesh.occlusion[v]; });
+  const double after = shade(
+      h.base_triangles, [&](std::uint32_t v) { return h.versions[v].position_m; },
+      [&](std::uint32_t v) { return h.versions[v].occlusion; });
+  EXPECT_NEAR(after, before, 0.1 * before);
+}
+
 TEST(Mirror, PairsPointsAndLeavesOthersAlone) {
   const std::vector<Vec3d> points = {{1, 0, 0}, {-1, 0, 1e-9}, {0, 2, 0}, {3, 3, 3}};
   const std::vector<std::uint32_t> mirror = mirror_points(points, 1e-6);
