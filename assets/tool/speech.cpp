@@ -172,8 +172,9 @@ std::vector<bake::MouthFrame> read_metrics(const std::string& path) {
 }
 
 // Times of the phones as they are heard in the file: where pieces of the voice's sound are found.
+// Throws when none of them is there.
 std::vector<bake::TimedPhone> heard_phones(const Spoken& spoken, const Spoken& file,
-                                           double* out_offset_spread_s) {
+                                           const std::string& path, double* out_offset_spread_s) {
   constexpr std::size_t kPart = 2048;
   constexpr std::int64_t kReach = 4410;  // 0.2 s either way.
   const auto first_sound = [](const Spoken& s) {
@@ -187,14 +188,17 @@ std::vector<bake::TimedPhone> heard_phones(const Spoken& spoken, const Spoken& f
   std::int64_t least = offset, most = offset;
   std::vector<bake::TimedPhone> out = phones_of(spoken);
   double looked_s = -10.0;
+  bool looked = false, heard = false;
   for (bake::TimedPhone& p : out) {
     const auto at = static_cast<std::int64_t>(p.start_s * spoken.rate_hz);
     const bool room =
         at + static_cast<std::int64_t>(kPart) < static_cast<std::int64_t>(spoken.samples.size());
     if (p.start_s - looked_s > 2.0 && !p.ipa.empty() && room) {
+      looked = true;
       const std::span part(spoken.samples.data() + at, kPart);
       if (const auto found = bake::find_sound(file.samples, part, at + offset, kReach);
           found >= 0) {
+        heard = true;
         offset = found - at;
         least = std::min(least, offset);
         most = std::max(most, offset);
@@ -203,6 +207,10 @@ std::vector<bake::TimedPhone> heard_phones(const Spoken& spoken, const Spoken& f
     }
     p.start_s += static_cast<double>(offset) / spoken.rate_hz;
   }
+  if (looked && !heard)
+    throw std::runtime_error(path +
+                             ": does not hold the sound of that text; give the text and "
+                             "language of the run");
   *out_offset_spread_s = static_cast<double>(most - least) / spoken.rate_hz;
   return out;
 }
@@ -228,8 +236,13 @@ void sync(const SpeechArgs& a) {
   check_text("--text", a.job.text);
   const Spoken spoken = speak(a.job), file = read_wav(a.recording);
   double spread_s = 0.0;
-  const auto phones = heard_phones(spoken, file, &spread_s);
+  const auto phones = heard_phones(spoken, file, a.recording, &spread_s);
   const bake::SyncReport r = bake::measure_sync(read_metrics(a.metrics), phones);
+  if (r.late_s.empty())
+    throw std::runtime_error(
+        a.metrics +
+        ": nothing to measure: no sound of the text moves the "
+        "mouth there; give the files and the --text of one run, of two words or more");
   const auto ms = [](double s) { return 1000.0 * s; };
   std::printf("%.1f s of sound; its place in the file wanders by %.2f ms\n", spoken.end_ms * 1e-3,
               ms(spread_s));
@@ -241,10 +254,6 @@ void sync(const SpeechArgs& a) {
         ms(bake::percentile(late_s, 50)), ms(bake::percentile(late_s, 95)),
         ms(bake::percentile(late_s, 99.5)), 100.0 * bake::share_within(late_s, -0.045, 0.015));
   };
-  if (r.late_s.empty())
-    throw std::runtime_error(a.metrics +
-                             ": nothing to measure: no sound of the text moves the "
-                             "mouth there; give the files and the --text of one run");
   print("visemes", r.late_s);
   print("first frames of contacts", r.contact_late_s);
   std::printf("drift: %.2f ms a minute\n", 60.0 * ms(bake::drift_s_per_s(r)));
@@ -322,7 +331,11 @@ void add_speech_sync(CLI::App* speech) {
   cmd->add_option("--text", a->job.text, "The text of caryatid --say TEXT")->required();
   cmd->add_option("--worst", a->worst, "Lists so many of the sounds that are farthest off");
   add_voice_options(cmd, a.get());
-  cmd->footer("example: caryatid-tool speech sync --audio a.wav --metrics m.jsonl --text Hello");
+  cmd->footer(
+      "example: caryatid --say \"Press five for maps.\" --display none --virtual-clock \\\n"
+      "           --duration 6 --audio file:a.wav --metrics m.jsonl\n"
+      "         caryatid-tool speech sync --audio a.wav --metrics m.jsonl \\\n"
+      "           --text \"Press five for maps.\"");
   on_run(cmd, [a] { sync(*a); });
 }
 

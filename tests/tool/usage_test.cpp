@@ -66,6 +66,17 @@ TEST_F(Tool, AVoiceThatSaysNothingIsNamed) {
   EXPECT_FALSE(exists("a.wav"));
 }
 
+TEST_F(Tool, ThereIsSomethingToMeasure) {
+  const auto voice = std::filesystem::path(CARYATID_TOOL).parent_path() / "caryatid-voice";
+  if (!std::filesystem::exists(voice)) GTEST_SKIP() << "needs caryatid-voice; build all targets";
+  const std::string text = "'Press five for maps.'";
+  ASSERT_EQ(run("speech bake " + text + " -o a").exit_code, 0);
+  write("m.jsonl", "");
+  refuses("speech sync --audio a.wav --metrics m.jsonl --text " + text, 1, "nothing to measure");
+  refuses("speech sync --audio a.wav --metrics m.jsonl --text 'Where are the stairs?'", 1,
+          "a.wav: does not hold the sound");
+}
+
 TEST_F(Tool, PhonemesAreIpa) {
   write("p", "p a _\nt #\n");
   write("a.wav", "RIFF");

@@ -106,7 +106,8 @@ Motion motion_of_csv(std::string_view text, const std::string& file_name) {
   const float shank_m = body::lower_length(s, body::leg(true));
   int line_number = 0;
   const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(file_name + ":" + std::to_string(line_number) + ": " + what);
+    throw std::runtime_error(
+        file_name + (line_number > 0 ? ":" + std::to_string(line_number) : "") + ": " + what);
   };
   std::map<std::string, std::size_t, std::less<>> column;
   Motion m;

@@ -1,15 +1,15 @@
 #include "assets/bake/human/json_mesh.h"
 
-#include <fstream>
 #include <stdexcept>
+
+#include "assets/bake/files/files.h"
 
 namespace caryatid::bake {
 
 Json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
-  Json json = Json::parse(in, nullptr, false);
-  if (json.is_discarded()) throw std::runtime_error(file.string() + ": is not JSON");
+  Json json = Json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded())
+    throw std::runtime_error(file.string() + ": is not JSON; fetch the base human again");
   return json;
 }
 

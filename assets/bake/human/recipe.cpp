@@ -126,6 +126,7 @@ PartRecipe read_part(const toml::table& t) {
   expect_keys(t, {"proxy", "texture", "tint", "saturation", "contrast", "softness", "gloss",
                   "shininess", "grow_m", "drop_above_m", "least_quads", "upper_only"});
   PartRecipe p;
+  p.line = t.source().begin.line;
   p.proxy = needed_text(t, "proxy");
   p.texture = text(t, "texture");
   p.tint = triple(t, "tint", p.tint, kFactor);
@@ -218,6 +219,11 @@ Recipe read_recipe(const std::filesystem::path& file) {
 void check_names(const Recipe& recipe, const BaseHuman& base, const std::filesystem::path& file) {
   if (recipe.skin.texture.empty())
     throw std::runtime_error(file.string() + ": [skin] texture: missing; write texture = \"...\"");
+  for (const PartRecipe& part : recipe.parts)
+    if (!std::filesystem::is_directory(base.folder() / "public/data/proxies" / part.proxy))
+      throw std::runtime_error(file.string() + ":" + std::to_string(part.line) +
+                               ": proxy: the base human has no " + part.proxy +
+                               "; name one of its own");
   for (std::size_t i = 0; i < recipe.targets.size(); ++i) try {
       (void)expand_target(recipe.targets[i], base);
     } catch (const std::runtime_error& error) {

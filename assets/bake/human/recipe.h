@@ -55,6 +55,7 @@ struct PartRecipe {
   float drop_above_m = 0.0f;
   // Connected parts with fewer quads are left out: wisps of hair, which turn to spikes when coarse.
   int least_quads = 0;
+  std::uint32_t line = 0;   // Of the file, for messages.
   bool upper_only = false;  // Of lashes: those of the lower lid are left out.
 };
 
@@ -71,8 +72,8 @@ struct Recipe {
 
 Recipe read_recipe(const std::filesystem::path& file);
 
-// Throws, with file and line, unless the base has the targets that the recipe of `file` names, and
-// a skin is named.
+// Throws, with file and line, unless the base has the targets and parts that the recipe of `file`
+// names, and a skin is named.
 void check_names(const Recipe& recipe, const BaseHuman& base, const std::filesystem::path& file);
 
 // The targets that a macro stands for, with their weights. Names that the base does not have are

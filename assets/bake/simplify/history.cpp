@@ -224,7 +224,7 @@ std::string format_history(const History& h) {
 
 History parse_history(std::string_view bytes, const std::string& name) {
   const auto fail = [&name](const char* what) -> void {
-    throw std::runtime_error(name + ":1: " + what);
+    throw std::runtime_error(name + ": " + what);
   };
   FileHeader header{};
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
