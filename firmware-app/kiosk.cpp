@@ -207,6 +207,7 @@ bool Kiosk::start() {
   std::string error;
   if (!options_.play.empty() && !player_.open(options_.play, &error)) return refuse(error);
   if (!open_person()) return false;
+  player_.set_fit(person_.fit());
   if (!parse_levels(options_.lod, person_.view(), fixed_levels_, &error)) return refuse(error);
   if ((pack_refused_ && !desk_.open_notice(options_.config)) || !desk_.take_memory(memory_.arena()))
     return refuse("the built-in programme is damaged; build again");

@@ -106,7 +106,7 @@ void Player::seek(double time_s) {
   if (is_body_) return advance(frame, &bap_reader_, &baps_);
   advance(frame, &fap_reader_, &raw_faps_);
   expand(raw_faps_);
-  face::fill_from_partners(&faps_);
+  face::fill_from_partners(&faps_, fit_);
   face::limit_to_coding_range(&faps_);
 }
 

@@ -26,6 +26,12 @@ class Player {
   bool play_stream(std::string_view path, double time_s) { return stream_.reopen(path, time_s); }
   void stop_stream() { stream_.close(); }
 
+  // How the person completes frames that leave FAPs out (agent::Person::fit); borrowed.
+  void set_fit(std::span<const face::FitRule> fit) {
+    fit_ = fit;
+    stream_.set_fit(fit);
+  }
+
   // Advances to `time_s` since the start; starts over after the last frame. No allocation.
   void seek(double time_s);
   // The frames to show; nullptr when the file has nothing (yet) of the kind.
@@ -51,6 +57,7 @@ class Player {
   bool is_body_ = false;
   bool has_face_ = false;
   StreamFile stream_;
+  std::span<const face::FitRule> fit_ = face::default_fit();
   double fps_ = 25.0;
   std::uint32_t frame_count_ = 0, next_frame_ = 0;
   stream::FapTextReader fap_reader_{{}};

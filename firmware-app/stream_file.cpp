@@ -92,6 +92,7 @@ bool StreamFile::shows_something() {
 void StreamFile::restart(double time_s) {
   if (is_file_) ::lseek(descriptor_, 0, SEEK_SET);
   playback_.emplace(buffer_, nodes_, stream::FbaDecoder::Options{});
+  playback_->set_fit(fit_);
   waiting_ = {};
   at_end_ = false;
   start_s_ = time_s;

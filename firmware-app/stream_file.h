@@ -23,6 +23,11 @@ class StreamFile {
   // hold at least one plane; what comes through a pipe is seen when it comes.
   bool open(const std::string& path, std::string* out_error);
   bool active() const { return descriptor_ >= 0; }
+  // The rules of the face that plays; borrowed.
+  void set_fit(std::span<const face::FitRule> fit) {
+    fit_ = fit;
+    if (playback_) playback_->set_fit(fit);
+  }
   // Takes the memory for reopen() now.
   void reserve();
   // Plays another regular file from `time_s` on, without allocating. False: what played goes on.
@@ -50,6 +55,7 @@ class StreamFile {
   bool at_end_ = false;
   std::vector<std::byte> buffer_;
   std::vector<stream::ModelNode> nodes_;
+  std::span<const face::FitRule> fit_ = face::default_fit();
   std::optional<stream::FbaPlayback> playback_;
 };
 

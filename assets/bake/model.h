@@ -100,6 +100,7 @@ struct Character {
   std::vector<Image> images;  // Material::texture indexes these.
   std::vector<pack::Channel> channels;
   std::vector<FeaturePoint> feature_points;
+  std::vector<pack::FitRule> fit;     // FAP interpolation; empty: face::default_fit() is packed.
   std::array<float, 69> rest_face{};  // FAP values of the calm face beneath every emotion.
   std::vector<Licence> licences;
 };

@@ -5,6 +5,7 @@
 #include "assets/bake/anthropometry/measures.h"
 #include "assets/bake/body/bdp.h"
 #include "assets/bake/face/fat.h"
+#include "assets/bake/face/fit_file.h"
 #include "assets/bake/gait/soles.h"
 #include "assets/bake/head/foreign_head.h"
 #include "assets/bake/human/build.h"
@@ -24,6 +25,7 @@ namespace {
 struct BakeArgs {
   std::string recipe, out, base, points, ranges;
   std::string bdp, bdp_profile = "calibration";
+  std::string fit;
   std::string anthropometry;  // Where the measurements go; empty: printed.
   bool licences = false, small = false;
   CLI::Option* measured = nullptr;
@@ -93,6 +95,10 @@ void add_anthropometry(CLI::App* cmd, BakeArgs* a) {
   writes(a->measured, {".json"});
 }
 
+void take_fit(const BakeArgs& a, bake::Character* character) {
+  if (!a.fit.empty()) character->fit = bake::parse_fit(bake::read_file(a.fit), a.fit);
+}
+
 void write_pack(const bake::Character& character, const bake::PackOptions& options,
                 const std::string& path) {
   bake::PackReport report;
@@ -136,6 +142,7 @@ void bake_character(const BakeArgs& a) {
   const auto ranges =
       bake::fat::read_working_ranges(recipe_file.parent_path() / "fap_working_ranges.csv");
   bake::build_fat(character, base, ranges);
+  take_fit(a, &character);
   progress.step("occlusion");
   bake::bake_occlusion(character);
   progress.step("simplify and pack");
@@ -178,6 +185,7 @@ void bake_head(const BakeArgs& a) {
   if (a.licences) print_licences(head.character);
   report_anthropometry(a, head.character);
   progress.step("occlusion");
+  take_fit(a, &head.character);
   bake::bake_occlusion(head.character);
   progress.step("simplify and pack");
   bake::PackOptions options;
@@ -266,6 +274,7 @@ void add_bake(CLI::App& app) {
   writes(character->add_option("-o,--out", a->out, "PACK")->required());
   character->add_option("--base", a->base,
                         "Folder of the base human (default: where cross/host.sh puts it)");
+  reads(character->add_option("--fit", a->fit, "RULES.fit in place of the built-in ones; see fit"));
   character->add_flag("--licences", a->licences, "Print the licence of every source");
   character->add_flag("--small", a->small,
                       "Head and shoulders without refinements: the agent's built-in face");
@@ -289,6 +298,7 @@ void add_bake(CLI::App& app) {
   reads(head->add_option(
       "--ranges", h->ranges,
       "Working ranges of the FAPs (default: assets/characters/fap_working_ranges.csv)"));
+  reads(head->add_option("--fit", h->fit, "RULES.fit in place of the built-in ones; see fit"));
   head->add_flag("--licences", h->licences, "Print the licence of every source");
   add_anthropometry(head, h.get());
   head->footer(kPointsHelp);

@@ -9,6 +9,7 @@ void add_bake(CLI::App& app);
 void add_bake_font(CLI::App& bake_command);
 void add_clip(CLI::App& app);
 void add_fba(CLI::App& app);
+void add_fit(CLI::App& app);
 void add_gait(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_render(CLI::App& app);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "assets/bake/face/fit_file.h"
 #include "assets/bake/files/files.h"
 #include "assets/bake/stream/clip_files.h"
 #include "assets/bake/stream/epf.h"
@@ -22,7 +23,7 @@ constexpr double kNoLimit = 1000000;  // kbit/s: the rate is reported only.
 
 struct FbaArgs {
   std::vector<std::string> in;
-  std::string out, epf, plot, pack;
+  std::string out, epf, plot, pack, fit;
   int quant = 1, bap_quant = 1, intra_every = 0;
   double fps = 0.0, kbps = 0.0, seconds = 60.0;
   unsigned seed = 1;
@@ -111,6 +112,7 @@ void fit_rate(const FbaArgs& a, const stream::FbaClip& clip, stream::FbaSettings
 
 void encode(const FbaArgs& a) {
   AnimationClip clip = read_texts(a.in);
+  if (!a.fit.empty()) clip.fit = bake::parse_fit(bake::read_file(a.fit), a.fit);
   std::vector<std::byte> bytes;
   if (!a.epf.empty()) {
     bytes = bake::encode_by_epf(clip, bake::read_epf(a.epf), a.epf);
@@ -160,6 +162,7 @@ void rate(const FbaArgs& a) {
   bake::Measure measure = bake::point_error;
   if (!a.pack.empty()) {
     const auto head = std::make_shared<bake::HeadMeter>(a.pack);
+    clip.fit = head->fit();
     measure = [head](const auto& original, const auto& decoded) {
       return head->measure(original, decoded);
     };
@@ -208,6 +211,8 @@ void add_fba(CLI::App& app) {
       ->check(number_from(0, 31));
   cmd->add_option("--fps", a->fps, "Frames a second; the text is resampled")
       ->check(number_from(0.1, 255.0));
+  reads(cmd->add_option("--fit", a->fit,
+                        "RULES.fit of the player, for --kbps (default: built in; see fit)"));
   cmd->add_option("--kbps", a->kbps, "Report the rate; with a number, keep to it")
       ->expected(0, 1)
       ->default_str("1000000")  // kNoLimit

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   add_bake(app);
   add_clip(app);
   add_fba(app);
+  add_fit(app);
   add_gait(app);
   add_plot(app);
   add_render(app);

@@ -97,6 +97,8 @@ std::pair<std::uint32_t, std::uint32_t> size_named(const std::string& text) {
 
 void render(const RenderArgs& a) {
   const auto [w, h] = size_named(a.size);
+  if (!a.mood.empty()) (void)style_named(a.mood);  // A wrong name is said before the pack is read.
+  Studio studio(a.pack, w, h);
   Pose pose;
   pose.view = view_named(a.view);
   pose.wire = a.wire;
@@ -108,7 +110,7 @@ void render(const RenderArgs& a) {
     pose.absolute = true;
     face::expand_viseme(pose.faps);
     emotion::expand_expression(pose.faps);
-    face::fill_from_partners(&pose.faps);
+    face::fill_from_partners(&pose.faps, studio.person().fit());
   }
   set_faps(a.set, &pose.faps);
   if (!a.bap.empty()) {
@@ -116,8 +118,6 @@ void render(const RenderArgs& a) {
     pose.bap_axes = bap_axes_named(a.bap_axes);
   }
   if (a.joint_limits) keep_joints(&pose);
-  if (!a.mood.empty()) (void)style_named(a.mood);  // A wrong name is said before the pack is read.
-  Studio studio(a.pack, w, h);
   if (!a.mood.empty()) pose.baps = walking(studio.person().skeleton(), a.mood, a.phase);
   write_png(studio.picture(pose), a.out);
 }

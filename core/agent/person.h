@@ -10,6 +10,7 @@
 #include "core/base/arena.h"
 #include "core/body/pose.h"
 #include "core/face/fat.h"
+#include "core/face/fit.h"
 #include "core/face/move_sum.h"
 #include "core/face/transforms.h"
 #include "core/face/wrinkles.h"
@@ -63,6 +64,8 @@ class Person {
   const body::Skeleton& skeleton() const { return skeleton_; }
   const face::FapLimits& limits() const { return limits_; }
   // The calm face beneath every emotion.
+  // How this person's face completes a stream that leaves FAPs out; from the pack.
+  std::span<const face::FitRule> fit() const { return face::fit_or_default(view_.fit); }
   const face::FapFrame& rest_face() const { return rest_face_; }
   // Where a feature point is now, in the world; rest position when the pack lacks it.
   Vec3 feature_point_m(int group, int index) const;

@@ -27,11 +27,11 @@ void leave_out(LipSet lips, FapFrame* io_frame) {
 
 }  // namespace
 
-BitSet<kFapCount + 1> fill_from_partners(FapFrame* io_frame) {
+BitSet<kFapCount + 1> fill_from_partners(FapFrame* io_frame, std::span<const FitRule> rules) {
   const bool inner = moves(*io_frame, kInnerLips);
   const bool outer = moves(*io_frame, kOuterLips);
   if (inner != outer) leave_out(inner ? kOuterLips : kInnerLips, io_frame);
-  return apply_fit(default_fit(), io_frame);
+  return apply_fit(rules, io_frame);
 }
 
 void limit_to_coding_range(FapFrame* io_frame) {

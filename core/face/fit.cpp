@@ -1,6 +1,7 @@
 #include "core/face/fit.h"
 
 #include <array>
+#include <cmath>
 
 namespace caryatid::face {
 namespace {
@@ -24,11 +25,21 @@ constexpr std::uint8_t kLeft[] = {6,  8,  10, 12, 19, 21, 23, 25, 27, 29, 31, 33
 // three rules for each brow's middle.
 constexpr std::size_t kRuleCount = 2 * std::size(kLeft) + 2 * 10 + 2 * (2 * 4 + 2) + 2 * 3;
 
+struct Share {
+  std::uint8_t fap = 0;
+  float coefficient = 0.0f;
+};
+constexpr FitTerm linear(Share s) { return {s.coefficient, {s.fap, 0}, {1, 0}}; }
+
 struct RuleList {
   std::array<FitRule, kRuleCount> rule{};
   std::size_t count = 0;
-  constexpr void add(int receiver, FitTerm a, FitTerm b = {}) {
-    rule[count++] = {static_cast<std::uint8_t>(receiver), {a, b, {}}};
+  constexpr void add(int receiver, Share a, Share b = {}) {
+    FitRule& r = rule[count++];
+    r.receiver = static_cast<std::uint8_t>(receiver);
+    r.numerator_count = b.fap != 0 ? 2 : 1;
+    r.numerator[0] = linear(a);
+    if (b.fap != 0) r.numerator[1] = linear(b);
   }
 };
 
@@ -51,7 +62,7 @@ constexpr void add_lips(RuleList* list) {
 constexpr void add_quarters(RuleList* list, int offset) {
   const auto at = [offset](std::uint8_t fap) { return static_cast<std::uint8_t>(fap + offset); };
   for (int i = 0; i < 4; ++i) {
-    const FitTerm middle{at(kInnerMiddle[i]), kMiddleShare};
+    const Share middle{at(kInnerMiddle[i]), kMiddleShare};
     list->add(at(kInnerQuarter[i]), middle,
               {at(kInnerCorner[i]), kCornerSign[i] * (1.0f - kMiddleShare)});
     list->add(at(kInnerQuarter[i]), middle);
@@ -82,10 +93,34 @@ constexpr RuleList make_default() {
 constexpr RuleList kDefault = make_default();
 static_assert(kDefault.count == kRuleCount);
 
-bool fires(const FitRule& rule, const FapFrame& frame) {
-  if (rule.term[0].fap == 0 || frame.mask.test(rule.receiver)) return false;
-  for (const FitTerm& term : rule.term)
-    if (term.fap != 0 && !frame.mask.test(term.fap)) return false;
+bool has_senders(std::span<const FitTerm> terms, const FapFrame& frame) {
+  for (const FitTerm& term : terms)
+    for (const std::uint8_t fap : term.fap)
+      if (fap != 0 && !frame.mask.test(fap)) return false;
+  return true;
+}
+
+float sum_of(std::span<const FitTerm> terms, const FapFrame& frame) {
+  float sum = 0.0f;
+  for (const FitTerm& term : terms) {
+    float product = term.coefficient;
+    for (std::size_t i = 0; i < pack::kFitFactors; ++i)
+      for (int p = 0; p < term.power[i]; ++p) product *= frame.value[term.fap[i]];
+    sum += product;
+  }
+  return sum;
+}
+
+bool apply(const FitRule& rule, FapFrame* io_frame) {
+  const std::span numerator(rule.numerator, rule.numerator_count);
+  const std::span denominator(rule.denominator, rule.denominator_count);
+  if (io_frame->mask.test(rule.receiver) || !has_senders(numerator, *io_frame) ||
+      !has_senders(denominator, *io_frame))
+    return false;
+  float value = sum_of(numerator, *io_frame);
+  if (!denominator.empty()) value /= sum_of(denominator, *io_frame);
+  if (!std::isfinite(value)) return false;
+  io_frame->set(rule.receiver, value);
   return true;
 }
 
@@ -99,11 +134,7 @@ BitSet<kFapCount + 1> apply_fit(std::span<const FitRule> rules, FapFrame* io_fra
   for (bool changed = true; changed;) {
     changed = false;
     for (const FitRule& rule : rules) {
-      if (!fires(rule, *io_frame)) continue;
-      float sum = 0.0f;
-      for (const FitTerm& term : rule.term)
-        if (term.fap != 0) sum += term.coefficient * io_frame->value[term.fap];
-      io_frame->set(rule.receiver, sum);
+      if (!apply(rule, io_frame)) continue;
       filled.set(rule.receiver);
       changed = true;
     }

@@ -1,29 +1,20 @@
 #pragma once
-// FAP interpolation after the idea of MPEG-4's FIT node (14496-1: an edge from sending to receiving
-// FAPs computes what a stream leaves out), kept to sums: a rule is data, a list of rules is a
-// graph.
+// FAP interpolation by MPEG-4's FIT (ISO/IEC 14496-1): rational polynomials compute what a stream
+// leaves out. The rules are data: pack::FitRule, from the pack of the person that is shown, or
+// those built in here. caryatid-tool fit writes and reads them as text.
 //
 // A rule fires when its receiver is absent and all its senders are present (given, or filled by an
-// earlier rule). Several rules for one receiver are alternatives in order of preference.
-// Values keep the FAPs' own units and directions; coefficients convert between them.
-#include <cstdint>
+// earlier rule). Several rules for one receiver are alternatives in order of preference. A value
+// that is not finite (a denominator of 0) is not set.
 #include <span>
 
 #include "core/face/fap.h"
+#include "core/pack/pack.h"
 
 namespace caryatid::face {
 
-inline constexpr int kMaxFitTerms = 3;
-
-struct FitTerm {
-  std::uint8_t fap = 0;  // Sender; 0 ends the list.
-  float coefficient = 0.0f;
-};
-
-struct FitRule {
-  std::uint8_t receiver = 0;  // 3..68.
-  FitTerm term[kMaxFitTerms];
-};
+using pack::FitRule;
+using pack::FitTerm;
 
 // The rules for streams of other tools, in this order:
 //  1. a side from the other side, unchanged: positive directions mirror (14496-2 annex C; the eyes'
@@ -34,6 +25,11 @@ struct FitRule {
 //  4. a lip's middle from its two quarter points: their mean;
 //  5. the middle of a brow from its ends: their mean; from one end: half of it.
 std::span<const FitRule> default_fit();
+
+// The rules of a pack (pack::View::fit, validated with it), or the default ones where it has none.
+inline std::span<const FitRule> fit_or_default(std::span<const FitRule> of_pack) {
+  return of_pack.empty() ? default_fit() : of_pack;
+}
 
 // Applies the rules in order, again until none fires, and sets the mask of every FAP they give.
 // FAPs 1 and 2 and FAPs that the frame has are never touched. Returns the FAPs that were filled.

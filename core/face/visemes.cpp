@@ -12,38 +12,35 @@ namespace {
 // phonetic descriptions (lips: openings of 0-13 mm, spread or rounded; tongue contacts) and by
 // looking at the rendered faces. MNS: jaw, upper, lower, push, tongue_*; MW: stretch, thrust.
 struct Shape {
-  float jaw;          // FAP 3
-  float upper;        // FAP 4, negative raises the upper lip
-  float lower;        // FAP 5, negative lowers the lower lip
-  float stretch;      // FAPs 6, 7
-  float push_lower;   // FAP 16
-  float push_upper;   // FAP 17
-  float tip_up;       // FAP 44
-  float tip_forward;  // FAP 45
-  float body_up;      // FAP 46
-  // Quarter points of the inner contour by its middle: 0.8 of a lens-shaped mouth
-  // (core/face/fit.h), up to 1 of a round one.
-  float round = 0.8f;
+  float jaw;            // FAP 3
+  float upper;          // FAP 4, negative raises the upper lip
+  float lower;          // FAP 5, negative lowers the lower lip
+  float stretch;        // FAPs 6, 7
+  float push_lower;     // FAP 16
+  float push_upper;     // FAP 17
+  float tip_up;         // FAP 44
+  float tip_forward;    // FAP 45
+  float body_up;        // FAP 46
   float corner = 0.0f;  // FAPs 12, 13: an open round mouth takes its corners down to mid-height.
   float red = 0.0f;     // FAP 52 beyond FAP 5: above 0 the red of the lower lip is rolled in.
 };
 
 constexpr std::array<Shape, kVisemeCount> kShapes = {{
     {0, 0, 0, 0, 0, 0, 0, 0, 0},
-    {40, 60, 60, 0, -40, -20, 0, 0, 0},                       // p b m: lips pressed.
-    {90, -210, -60, 10, -220, 40, -60, -40, 0, 0.8f, 0, 80},  // f v: lower lip under the teeth.
-    {260, -160, -400, 15, 0, 0, 60, 190, 0},                  // T D: tongue between the teeth.
-    {110, -70, -200, 20, 0, 0, 270, 20, 80},                  // t d: tip behind the upper teeth.
-    {230, -70, -260, 10, 0, 0, -60, -60, 260},                // k g: back of the tongue up.
-    {130, -150, -240, -90, 260, 260, 120, 0, 120},   // tS dZ S: pushed forward, teeth close.
-    {70, -170, -190, 60, 0, 0, 120, 20, 60},         // s z: teeth together, lips spread.
-    {130, -70, -230, 20, 0, 0, 290, 20, 60},         // n l
-    {170, -50, -220, -70, 140, 140, 160, -60, 100},  // r
-    {640, -110, -570, 0, 0, 0, -60, -40, -80},       // A:
-    {330, -150, -320, 60, 0, 0, 0, 0, 60},           // e
-    {190, -140, -220, 80, 0, 0, 0, 20, 120},         // I
-    {560, -60, -480, -200, 300, 300, -60, -100, 0, 0.92f, -130},  // Q: round and open.
-    {190, 30, -250, -220, 330, 330, -40, -60, 120, 0.9f, -60},    // U: round and narrow.
+    {40, 60, 60, 0, -40, -20, 0, 0, 0},                    // p b m: lips pressed.
+    {90, -210, -60, 10, -220, 40, -60, -40, 0, 0, 80},     // f v: lower lip under the teeth.
+    {260, -160, -400, 15, 0, 0, 60, 190, 0},               // T D: tongue between the teeth.
+    {110, -70, -200, 20, 0, 0, 270, 20, 80},               // t d: tip behind the upper teeth.
+    {230, -70, -260, 10, 0, 0, -60, -60, 260},             // k g: back of the tongue up.
+    {130, -150, -240, -90, 260, 260, 120, 0, 120},         // tS dZ S: pushed forward, teeth close.
+    {70, -170, -190, 60, 0, 0, 120, 20, 60},               // s z: teeth together, lips spread.
+    {130, -70, -230, 20, 0, 0, 290, 20, 60},               // n l
+    {170, -50, -220, -70, 140, 140, 160, -60, 100},        // r
+    {640, -110, -570, 0, 0, 0, -60, -40, -80},             // A:
+    {330, -150, -320, 60, 0, 0, 0, 0, 60},                 // e
+    {190, -140, -220, 80, 0, 0, 0, 20, 120},               // I
+    {560, -60, -480, -200, 300, 300, -60, -100, 0, -130},  // Q: round and open.
+    {190, 30, -250, -220, 330, 330, -40, -60, 120, -60},   // U: round and narrow.
 }};
 
 }  // namespace
@@ -58,10 +55,6 @@ FapFrame viseme_frame(int viseme) {
   frame.set(5, shape.lower);
   frame.set(6, shape.stretch);
   frame.set(12, shape.corner);
-  if (shape.round != 0.8f) {
-    frame.set(8, shape.round * shape.upper);
-    frame.set(10, shape.round * shape.lower);
-  }
   if (shape.red != 0.0f) frame.set(52, shape.lower + shape.red);
   frame.set(16, shape.push_lower);
   frame.set(17, shape.push_upper);

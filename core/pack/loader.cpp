@@ -57,6 +57,8 @@ bool bind_section(const Section& s, std::span<std::byte> image, View* view) {
       return bind(&view->rest_face);
     case SectionId::licences:
       return bind(&view->licences);
+    case SectionId::fit:
+      return bind(&view->fit);
   }
   return true;  // A section of a later bake that this build does not need.
 }
@@ -272,6 +274,8 @@ const char* refusal_text(Refusal refusal) {
       return "a feature point is wrong; bake it again";
     case Refusal::bad_number:
       return "a number is not finite; bake it again";
+    case Refusal::bad_fit:
+      return "a rule of FAP interpolation is wrong; bake it again";
     case Refusal::bad_split_order:
       return "the refinements are out of order; bake it again";
   }

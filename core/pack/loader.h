@@ -35,6 +35,7 @@ enum class Refusal : std::uint16_t {
   bad_move,     // FAT ranges or channels out of order.
   bad_feature_point,
   bad_number,       // NaN or infinity where a length stands.
+  bad_fit,          // A rule of FAP interpolation that no FIT can hold.
   bad_split_order,  // Refinements arrive out of order.
 };
 // One line in English for a message to the deployer.

@@ -60,6 +60,7 @@ enum class SectionId : std::uint32_t {
   feature_points = fourcc('F', 'D', 'P', 'S'),  // FeaturePoint
   rest_face = fourcc('R', 'E', 'S', 'T'),       // 69 floats: FAPs of the calm face, index = FAP
   licences = fourcc('L', 'I', 'C', 'E'),        // UTF-8 text
+  fit = fourcc('F', 'I', 'T', 'R'),             // FitRule: FAP interpolation; may be missing
 };
 
 struct Section {
@@ -203,6 +204,30 @@ struct Move {
 };
 static_assert(sizeof(Move) == 12);
 inline constexpr float kMoveStep_m = 2e-6f;  // +-65 mm in steps of 2 micrometres.
+
+// FAP interpolation, MPEG-4's FIT node (ISO/IEC 14496-1) as data: what a stream leaves out is
+// computed from what it sends. A rule is an edge of the FIT's graph, from the FAPs that its terms
+// name to the receiver: a rational polynomial,
+//   receiver = (sum of numerator terms) / (sum of denominator terms, or 1 where there are none),
+// a term being coefficient * fap[0]^power[0] * fap[1]^power[1] in the FAPs' own units. Rules for
+// one receiver stand in order of preference. The standard's nodes are groups of FAPs; here each FAP
+// is its own node and a node's functions are rules one by one.
+inline constexpr std::size_t kFitNumerators = 4, kFitDenominators = 2, kFitFactors = 2;
+inline constexpr std::size_t kMaxFitRules = 256;
+struct FitTerm {
+  float coefficient;
+  std::uint8_t fap[kFitFactors];    // 3..68; 0: no such factor.
+  std::uint8_t power[kFitFactors];  // 1..3 where there is a FAP, else 0.
+};
+struct FitRule {
+  std::uint8_t receiver;           // 3..68, no sender of its own.
+  std::uint8_t numerator_count;    // 1..kFitNumerators; together they name at least one FAP.
+  std::uint8_t denominator_count;  // 0..kFitDenominators
+  std::uint8_t reserved;
+  FitTerm numerator[kFitNumerators];
+  FitTerm denominator[kFitDenominators];
+};
+static_assert(sizeof(FitTerm) == 8 && sizeof(FitRule) == 52);
 
 // An MPEG-4 feature point (FDP). Its vertex is locked: it lives, unmoved, at every level of detail.
 inline constexpr std::uint16_t kNoObject = 0xFFFF;

@@ -139,6 +139,33 @@ Status check_fat(const View& view) {
   return {};
 }
 
+bool fit_term_ok(const FitTerm& term, std::uint8_t receiver, bool* names_fap) {
+  if (!std::isfinite(term.coefficient)) return false;
+  for (std::size_t i = 0; i < kFitFactors; ++i) {
+    const std::uint8_t fap = term.fap[i], power = term.power[i];
+    if (fap == 0 && power == 0) continue;
+    if (fap < 3 || fap > 68 || fap == receiver || power < 1 || power > 3) return false;
+    *names_fap = true;
+  }
+  return true;
+}
+
+Status check_fit(const View& view) {
+  if (view.fit.size() > kMaxFitRules) return refused(Refusal::bad_fit);
+  for (const FitRule& rule : view.fit) {
+    bool ok = rule.receiver >= 3 && rule.receiver <= 68 && rule.numerator_count >= 1 &&
+              rule.numerator_count <= kFitNumerators && rule.denominator_count <= kFitDenominators;
+    bool names_fap = false;
+    for (std::size_t i = 0; ok && i < rule.numerator_count; ++i)
+      ok = fit_term_ok(rule.numerator[i], rule.receiver, &names_fap);
+    bool ignored = false;
+    for (std::size_t i = 0; ok && i < rule.denominator_count; ++i)
+      ok = fit_term_ok(rule.denominator[i], rule.receiver, &ignored);
+    if (!ok || !names_fap) return refused(Refusal::bad_fit);
+  }
+  return {};
+}
+
 Status check_feature_points(const View& view) {
   for (const FeaturePoint& p : view.feature_points) {
     const bool ok = p.object == kNoObject ? p.vertex < view.joints.size()
@@ -188,6 +215,7 @@ Status validate_view(const View& view) {
   CARYATID_TRY(check_textures(view));
   CARYATID_TRY(check_objects(view));
   CARYATID_TRY(check_fat(view));
+  CARYATID_TRY(check_fit(view));
   return check_feature_points(view);
 }
 

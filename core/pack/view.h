@@ -25,6 +25,7 @@ struct View {
   std::span<const FeaturePoint> feature_points;
   std::span<const float> rest_face;  // 69 long.
   std::span<const char> licences;
+  std::span<const FitRule> fit;  // Empty: face::default_fit().
 };
 
 // Object with this name, or kNoObject. O(objects).

@@ -77,17 +77,17 @@ FbaCoding coding_of(const FbaSettings& settings) {
 }
 
 // Whether every frame comes back within the tolerance when only the FAPs of `sent` are sent.
-bool restores(std::span<const face::FapFrame> frames, const BitSet<face::kFapCount + 1>& clip_mask,
+bool restores(const FbaClip& clip, const BitSet<face::kFapCount + 1>& clip_mask,
               const BitSet<face::kFapCount + 1>& sent, float tolerance_mm) {
   face::FapFrame all;
-  for (const face::FapFrame& frame : frames) {
+  for (const face::FapFrame& frame : clip.face) {
     face::FapFrame got;
     for (int fap = 3; fap <= face::kFapCount; ++fap) {
       const auto n = static_cast<std::size_t>(fap);
       if (frame.mask.test(n)) all.value[n] = frame.value[n];
       if (sent.test(n)) got.set(fap, all.value[n]);
     }
-    face::fill_from_partners(&got);
+    face::fill_from_partners(&got, clip.fit);
     for (int fap = 3; fap <= face::kFapCount; ++fap) {
       const auto n = static_cast<std::size_t>(fap);
       if (!clip_mask.test(n) || sent.test(n)) continue;
@@ -138,7 +138,7 @@ void leave_out_restorable(const FbaClip& clip, float tolerance_mm, FbaSettings* 
     const auto n = static_cast<std::size_t>(fap);
     if (!io_settings->fap_mask.test(n)) continue;
     io_settings->fap_mask.set(n, false);
-    if (restores(clip.face, all, io_settings->fap_mask, tolerance_mm)) {
+    if (restores(clip, all, io_settings->fap_mask, tolerance_mm)) {
       io_settings->unlisted[face::fap_info(fap).group] = FapMaskType::interpolate;
     } else {
       io_settings->fap_mask.set(n);

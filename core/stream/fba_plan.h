@@ -3,6 +3,7 @@
 // the coarsest or finest steps that a rate allows.
 #include <span>
 
+#include "core/face/fit.h"
 #include "core/stream/fba_encoder.h"
 
 namespace caryatid::stream {
@@ -12,6 +13,8 @@ struct FbaClip {
   std::span<const face::FapFrame> face;
   std::span<const body::BapFrame> body;
   std::size_t intra_every = 0;  // Frames from one intra plane to the next; 0: the first only.
+  // By which the player restores what is left out.
+  std::span<const face::FitRule> fit = face::default_fit();
   std::size_t size() const { return face.size() > body.size() ? face.size() : body.size(); }
 };
 
@@ -23,7 +26,7 @@ float fap_unit_mm(int fap);
 // Every parameter that some frame of the clip flags.
 void set_masks(const FbaClip& clip, FbaSettings* io_settings);
 
-// Takes FAPs out of the mask that the player restores by itself (face::fill_from_partners) to
+// Takes FAPs out of the mask that the player restores by itself (clip.fit) to
 // within `tolerance_mm` in every frame, or that stay at 0 and would not be filled; marks their
 // groups for interpolation. Right sides and outer lips go first. O(66 x frames).
 void leave_out_restorable(const FbaClip& clip, float tolerance_mm, FbaSettings* io_settings);

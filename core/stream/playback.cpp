@@ -55,7 +55,7 @@ bool FbaPlayback::advance(double time_s) {
         const auto held = decoder_.held_faps();
         for (std::size_t fap = 1; fap <= face::kFapCount; ++fap)
           if (held.test(fap)) face_.mask.set(fap);
-        face::fill_from_partners(&face_);
+        face::fill_from_partners(&face_, fit_);
         face::limit_to_coding_range(&face_);
         has_face_ = true;
       }

@@ -3,6 +3,7 @@
 // memory: bytes go in as they come, frames come out when they are due.
 #include <span>
 
+#include "core/face/fit.h"
 #include "core/stream/fba_decoder.h"
 
 namespace caryatid::stream {
@@ -23,6 +24,9 @@ class FbaPlayback {
 
   // Longest plane with every parameter of face and body, with room to spare.
   static constexpr std::size_t kMinBufferBytes = 4096;
+
+  // The rules that complete its frames; borrowed. default_fit() until this is called.
+  void set_fit(std::span<const face::FitRule> fit) { fit_ = fit; }
 
   // Takes bytes of the stream, as many as there is room for; returns how many. The rest comes again
   // after advance().
@@ -54,6 +58,8 @@ class FbaPlayback {
   FbaDecoder decoder_;
   bool closed_ = false;
   bool ended_ = false;
+
+  std::span<const face::FitRule> fit_ = face::default_fit();
 
   bool waiting_ = false;   // A decoded plane waits for its time.
   double due_s_ = 0.0;     // Of the plane that waits, or the last one.

@@ -11,6 +11,7 @@
 #include "assets/bake/simplify/symmetry.h"
 #include "core/base/crc.h"
 #include "core/base/limits.h"
+#include "core/face/fit.h"
 #include "core/mesh/progressive.h"
 #include "core/pack/loader.h"
 
@@ -99,6 +100,7 @@ class Writer {
       {SectionId::channels, sizeof(pack::Channel), {}},
       {SectionId::feature_points, sizeof(pack::FeaturePoint), {}},
       {SectionId::rest_face, sizeof(float), {}},
+      {SectionId::fit, sizeof(pack::FitRule), {}},
       {SectionId::licences, sizeof(char), {}},
       {SectionId::base_indices, sizeof(std::uint16_t), {}},
       {SectionId::versions, sizeof(pack::Vertex), {}},
@@ -126,6 +128,8 @@ void Writer::put_tables() {
   put(SectionId::materials, character_.materials.data(), character_.materials.size());
   put(SectionId::channels, character_.channels.data(), character_.channels.size());
   put(SectionId::rest_face, character_.rest_face.data(), character_.rest_face.size());
+  const auto fit = face::fit_or_default(character_.fit);
+  put(SectionId::fit, fit.data(), fit.size());
   std::string text;
   for (const Licence& l : character_.licences)
     text += l.source + ": " + l.licence + (l.author.empty() ? "" : ", " + l.author) + "\n";

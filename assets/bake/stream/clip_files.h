@@ -15,7 +15,11 @@ struct AnimationClip {
   std::vector<body::BapFrame> body;
   double frames_per_second = 25.0;
 
-  stream::FbaClip view(std::size_t intra_every) const { return {face, body, intra_every}; }
+  std::vector<face::FitRule> fit;  // Of the player; empty: face::default_fit().
+
+  stream::FbaClip view(std::size_t intra_every) const {
+    return {face, body, intra_every, face::fit_or_default(fit)};
+  }
   std::size_t size() const { return std::max(face.size(), body.size()); }
 };
 

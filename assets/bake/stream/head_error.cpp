@@ -36,7 +36,7 @@ HeadMeter::HeadMeter(const std::string& pack_path) {
 
 std::vector<Vec3> HeadMeter::points_of(const face::FapFrame& frame) {
   face::FapFrame filled = frame;
-  face::fill_from_partners(&filled);
+  face::fill_from_partners(&filled, person_->fit());
   face::MixJob mix;
   mix.stream = &filled;
   mix.limits = &person_->limits();

@@ -21,6 +21,9 @@ class HeadMeter {
   PointError measure(const std::vector<face::FapFrame>& original,
                      const std::vector<face::FapFrame>& decoded);
 
+  // The rules by which this face completes a stream.
+  std::vector<face::FitRule> fit() const { return {person_->fit().begin(), person_->fit().end()}; }
+
  private:
   std::vector<Vec3> points_of(const face::FapFrame& frame);
 

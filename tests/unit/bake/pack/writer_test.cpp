@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/agent/person.h"
+#include "core/face/fit.h"
 #include "core/mesh/progressive.h"
 #include "core/pack/loader.h"
 
@@ -120,6 +121,19 @@ TEST(PackWriter, WhatItWritesIsLoadedWithoutComplaint) {
       checker.check(source, 0, static_cast<std::uint32_t>(source.splits.size()), scratch).ok());
   EXPECT_EQ(checker.triangle_count, source.max_triangle_count);
   EXPECT_EQ(checker.vertex_count, source.max_vertex_count);
+}
+
+TEST(PackWriter, RulesOfInterpolationTravelInThePack) {
+  const Loaded with_default(write_pack(character(), {}, nullptr));
+  const auto built_in = face::default_fit();
+  ASSERT_EQ(with_default.loader.view().fit.size(), built_in.size());
+  EXPECT_EQ(
+      std::memcmp(with_default.loader.view().fit.data(), built_in.data(), built_in.size_bytes()),
+      0);
+  Character other = character();
+  other.fit = {built_in.begin(), built_in.begin() + 3};
+  const Loaded with_own(write_pack(other, {}, nullptr));
+  ASSERT_EQ(with_own.loader.view().fit.size(), 3u);
 }
 
 // Progressive transmission: a frame can be drawn from the base part alone, and is refined while the

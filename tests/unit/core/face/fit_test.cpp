@@ -116,6 +116,44 @@ TEST(Fit, AFilledFrameDoesNotChangeAgain) {
   EXPECT_EQ(frame.value, once.value);
 }
 
+// F14 = (2 F3^2 + F3 F5) / (100 + F4), and what no number is stays absent.
+TEST(Fit, RulesAreRationalPolynomials) {
+  FitRule rule{};
+  rule.receiver = 14;
+  rule.numerator_count = 2;
+  rule.denominator_count = 2;
+  rule.numerator[0] = {2.0f, {3, 0}, {2, 0}};
+  rule.numerator[1] = {1.0f, {3, 5}, {1, 1}};
+  rule.denominator[0] = {100.0f, {0, 0}, {0, 0}};
+  rule.denominator[1] = {1.0f, {4, 0}, {1, 0}};
+  FapFrame frame;
+  frame.set(3, 10);
+  frame.set(5, -4);
+  EXPECT_FALSE(apply_fit({&rule, 1}, &frame).any()) << "a sender of the denominator is absent";
+  frame.set(4, 60);
+  EXPECT_TRUE(apply_fit({&rule, 1}, &frame).test(14));
+  EXPECT_EQ(frame.get(14), 1.0f);
+  FapFrame pole = frame;
+  pole.mask.set(14, false);
+  pole.set(4, -100);
+  EXPECT_FALSE(apply_fit({&rule, 1}, &pole).any());
+  EXPECT_FALSE(pole.has(14));
+}
+
+// Another table, another face: nothing is left of the built-in rules.
+TEST(Fit, RulesOfAPackReplaceTheBuiltInOnes) {
+  FitRule rule{};
+  rule.receiver = 7;
+  rule.numerator_count = 1;
+  rule.numerator[0] = {0.5f, {6, 0}, {1, 0}};
+  FapFrame frame;
+  frame.set(6, 100);
+  fill_from_partners(&frame, fit_or_default({&rule, 1}));
+  EXPECT_EQ(frame.get(7), 50.0f);
+  EXPECT_FALSE(frame.has(53));
+  EXPECT_EQ(fit_or_default({}).data(), default_fit().data());
+}
+
 TEST(FapLimits, OutsideValuesComeBackIntoTheirRange) {
   FapFrame frame;
   frame.set(3, 1e8f);

@@ -131,6 +131,17 @@ TEST(Loader, HostileContentHasItsOwnRefusal) {
             Refusal::bad_move);
   EXPECT_EQ(refusal_after<Move>(SectionId::fat_moves, [](Move* m) { m->channel = 1; }),
             Refusal::bad_move);
+  for (const auto& spoil : std::initializer_list<void (*)(FitRule*)>{
+           [](FitRule* r) { r->receiver = 2; }, [](FitRule* r) { r->receiver = 69; },
+           [](FitRule* r) { r->receiver = 6; }, [](FitRule* r) { r->numerator_count = 0; },
+           [](FitRule* r) { r->numerator_count = kFitNumerators + 1; },
+           [](FitRule* r) { r->denominator_count = kFitDenominators + 1; },
+           [](FitRule* r) { r->numerator[0].fap[0] = 0; },
+           [](FitRule* r) { r->numerator[0].fap[1] = 200; },
+           [](FitRule* r) { r->numerator[0].power[0] = 4; },
+           [](FitRule* r) { r->numerator[0].coefficient = nan; },
+           [](FitRule* r) { r->denominator_count = 1, r->denominator[0].fap[0] = 7; }})
+    EXPECT_EQ(refusal_after<FitRule>(SectionId::fit, spoil), Refusal::bad_fit);
   EXPECT_EQ(refusal_after<FeaturePoint>(SectionId::feature_points,
                                         [](FeaturePoint* p) { p->vertex = 3; }),
             Refusal::bad_feature_point);
@@ -152,6 +163,13 @@ TEST(Loader, OverlappingSectionsAreRefused) {
   header->tables_crc = crc32c(std::span(file).subspan(sizeof(PackHeader), tables));
   header->header_crc = crc32c(std::span(file).first(60));
   EXPECT_EQ(refusal(load(file)), Refusal::table_ranges);
+}
+
+TEST(Loader, InterpolationRulesMayBeMissing) {
+  TinyPack with, without;
+  without.drop(SectionId::fit);
+  EXPECT_TRUE(load(with.file()).status.ok());
+  EXPECT_TRUE(load(without.file()).status.ok());
 }
 
 TEST(Loader, EverySectionIsNeeded) {

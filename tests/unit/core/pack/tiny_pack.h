@@ -48,6 +48,11 @@ class TinyPack {
     add(SectionId::feature_points, {FeaturePoint{2, 1, 0, 0, {0, 1, 0}}});
     add(SectionId::rest_face, std::vector<float>(69));
     add(SectionId::licences, std::vector<char>{'C', 'C', '0'});
+    FitRule rule{};  // FAP 7 = FAP 6.
+    rule.receiver = 7;
+    rule.numerator_count = 1;
+    rule.numerator[0] = {1.0f, {6, 0}, {1, 0}};
+    add(SectionId::fit, {rule});
   }
 
   // The bytes of section `id`, to be changed before file() is called.

@@ -371,6 +371,30 @@ TEST(FbaPlan, LeavesOutWhatIsRestored) {
     EXPECT_FALSE(settings.fap_mask.test(fap)) << fap;
 }
 
+// The rules of the player decide what the rate control leaves out.
+TEST(FbaPlan, LeavesOutByTheRulesOfThePlayer) {
+  std::vector<face::FapFrame> frames(20);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].set(6, static_cast<float>(i) * 4.0f);
+    frames[i].set(7, static_cast<float>(i) * 2.0f);
+  }
+  face::FitRule half{};
+  half.receiver = 7;
+  half.numerator_count = 1;
+  half.numerator[0] = {0.5f, {6, 0}, {1, 0}};
+  FbaClip clip{frames, {}, 0};
+  const auto sends_right = [&clip] {
+    FbaSettings settings;
+    set_masks(clip, &settings);
+    leave_out_restorable(clip, 0.01f, &settings);
+    EXPECT_TRUE(settings.fap_mask.test(6));
+    return settings.fap_mask.test(7);
+  };
+  EXPECT_TRUE(sends_right());
+  clip.fit = {&half, 1};
+  EXPECT_FALSE(sends_right());
+}
+
 TEST(FbaPlan, MeasuresWhatTheEncoderWrites) {
   const auto frames = waves(50);
   const FbaClip clip{frames, {}, 25};

@@ -39,6 +39,22 @@ struct Bench {
   FbaPlayback playback{buffer, nodes, {}};
 };
 
+TEST(Playback, CompletesFramesByTheRulesOfTheFace) {
+  face::FitRule rule{};
+  rule.receiver = 14;
+  rule.numerator_count = 1;
+  rule.numerator[0] = {-2.0f, {3, 0}, {1, 0}};
+  const auto bytes = jaw_stream(3);
+  Bench bench;
+  bench.playback.set_fit({&rule, 1});
+  bench.playback.push(bytes);
+  bench.playback.close();
+  EXPECT_TRUE(bench.playback.advance(0.0));
+  EXPECT_TRUE(bench.playback.advance(0.11));
+  EXPECT_EQ(bench.playback.face().get(3), 4.0f);
+  EXPECT_EQ(bench.playback.face().get(14), -8.0f);
+}
+
 TEST(Playback, ShowsTheFrameThatIsDue) {
   const auto bytes = jaw_stream(30);
   Bench bench;
