@@ -22,13 +22,12 @@ struct Shape {
   float tip_forward;    // FAP 45
   float body_up;        // FAP 46
   float corner = 0.0f;  // FAPs 12, 13: an open round mouth takes its corners down to mid-height.
-  float red = 0.0f;     // FAP 52 beyond FAP 5: above 0 the red of the lower lip is rolled in.
 };
 
 constexpr std::array<Shape, kVisemeCount> kShapes = {{
     {0, 0, 0, 0, 0, 0, 0, 0, 0},
     {40, 60, 60, 0, -40, -20, 0, 0, 0},                    // p b m: lips pressed.
-    {90, -210, -60, 10, -220, 40, -60, -40, 0, 0, 80},     // f v: lower lip under the teeth.
+    {90, -210, -60, 10, -220, 40, -60, -40, 0},            // f v: lower lip under the teeth.
     {260, -160, -400, 15, 0, 0, 60, 190, 0},               // T D: tongue between the teeth.
     {110, -70, -200, 20, 0, 0, 270, 20, 80},               // t d: tip behind the upper teeth.
     {230, -70, -260, 10, 0, 0, -60, -60, 260},             // k g: back of the tongue up.
@@ -55,7 +54,6 @@ FapFrame viseme_frame(int viseme) {
   frame.set(5, shape.lower);
   frame.set(6, shape.stretch);
   frame.set(12, shape.corner);
-  if (shape.red != 0.0f) frame.set(52, shape.lower + shape.red);
   frame.set(16, shape.push_lower);
   frame.set(17, shape.push_upper);
   frame.set(44, shape.tip_up);
