@@ -19,3 +19,7 @@ list(TRANSFORM folders PREPEND ${CARYATID_SYSROOT}/)
 list(JOIN folders ":" folders)
 set(ENV{PKG_CONFIG_LIBDIR} ${folders})
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${CARYATID_SYSROOT})
+# The target's own C++ runtime: libraries of a newer release than the compiler's need a newer one.
+file(GLOB CMAKE_CXX_STANDARD_LIBRARIES_INIT ${CARYATID_SYSROOT}/usr/lib/${TRIPLE}/libstdc++.so.6)
+# Before the compiler's own folder, which has the C library of this PC's release.
+set(CMAKE_EXE_LINKER_FLAGS_INIT -L${CARYATID_SYSROOT}/usr/lib/${TRIPLE})
