@@ -18,8 +18,8 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0xeb36b18dbcc17994u, kPoseHash = 0x18d89feb35823a52u,
-                        kDrawListHash = 0x9b97e4c8ab23f21eu;
+constexpr std::uint64_t kJoyHash = 0xce5de001f2c86396u, kPoseHash = 0x18d89feb35823a52u,
+                        kDrawListHash = 0x8c89641f2ed2a820u;
 
 class Hash : public testing::Test {
  protected:
