@@ -130,6 +130,7 @@ class Steps(Session):
         check(True, "a key works again after the keyboard was unplugged and plugged in")
 
     def sound(self):
+        self.wait_calm()  # A feeling would be heard.
         self.board.type_key("t")
         self.wait("speech in the metrics", 20, lambda: "speech" in self.metrics()[0])
         self.dump("speaking")
