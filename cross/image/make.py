@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the kiosk's disk image from an unpacked Debian tree. No root, no loop device, no script of
-a package is run; the same input makes the same bytes. See README.md beside this file.
+a package is run; the same input should make the same bytes. See README.md beside this file.
 
 make.py prepare TREE              once per tree: users, drivers, settings, boot files
 make.py image TREE PAYLOAD OUT    TREE with the files of PAYLOAD (a folder like /), as OUT/kiosk.img
