@@ -120,6 +120,17 @@ void pull(const Tie& tie, FapFrame& frame) {
     frame.set(tie.a, a - excess);
 }
 
+// A brow bends down in its middle by no more than this below its ends' mean (ENS; the deepest of
+// the six emotions, anger, takes 105 of it): beyond, middle and ends meet half-way.
+void keep_brow_arched(int inner, int middle, int outer, FapFrame& frame) {
+  constexpr float kSag = 110.0f;
+  const float sag = 0.5f * (frame.get(inner) + frame.get(outer)) - frame.get(middle);
+  const float half = 0.5f * std::max(sag - kSag, 0.0f);
+  if (half == 0.0f) return;
+  for (const int end : {inner, outer}) frame.set(end, frame.get(end) - half);
+  frame.set(middle, frame.get(middle) + half);
+}
+
 }  // namespace
 
 void seal_lips(FapFrame& frame) {
@@ -129,6 +140,7 @@ void seal_lips(FapFrame& frame) {
 }
 
 void keep_flesh_whole(FapFrame& frame) {
+  for (int side = 0; side < 2; ++side) keep_brow_arched(31 + side, 33 + side, 35 + side, frame);
   // Twice: what an outer contour pulls along must reach the far end of the inner one.
   for (int pass = 0; pass < 2; ++pass)
     for (const Tie& tie : kTies) pull(tie, frame);

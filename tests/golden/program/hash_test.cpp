@@ -18,7 +18,7 @@ namespace caryatid::golden {
 namespace {
 
 // Of the built-in face of this tree. When one changes, first know why.
-constexpr std::uint64_t kJoyHash = 0xce5de001f2c86396u, kPoseHash = 0x18d89feb35823a52u,
+constexpr std::uint64_t kJoyHash = 0xadef75ca1b247132u, kPoseHash = 0x18d89feb35823a52u,
                         kDrawListHash = 0x8c89641f2ed2a820u;
 
 class Hash : public testing::Test {
