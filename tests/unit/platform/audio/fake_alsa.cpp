@@ -88,7 +88,7 @@ snd_pcm_sframes_t snd_pcm_writei(snd_pcm_t* pcm, const void* from, snd_pcm_ufram
   for (std::int64_t i = 0; i < n; ++i) fake.played.push_back(samples[i * pcm->channels]);
   if (pcm->start_us < 0) pcm->start_us = monotonic_us();
   pcm->written += n;
-  return n;
+  return static_cast<snd_pcm_sframes_t>(n);
 }
 
 int snd_pcm_recover(snd_pcm_t*, int error, int) {
@@ -97,7 +97,7 @@ int snd_pcm_recover(snd_pcm_t*, int error, int) {
 }
 
 int snd_pcm_delay(snd_pcm_t* pcm, snd_pcm_sframes_t* delay) {
-  *delay = pcm->written - pcm->played();
+  *delay = static_cast<snd_pcm_sframes_t>(pcm->written - pcm->played());
   return 0;
 }
 
