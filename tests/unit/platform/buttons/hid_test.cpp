@@ -284,9 +284,8 @@ TEST(Hid, WithoutHidapiTheErrorSaysSo) {
   hid_world = {};
 }
 
-// A search that hangs inside hidapi, as while a hub starts: frames go on, and the device works when
-// the search comes back.
-TEST(Hid, NoFrameWaitsForASearch) {
+// Buttons that search beside the frames for a keyboard that is plugged in only after the start.
+void open_then_plug(std::unique_ptr<Buttons>* out) {
   hid_world = {};
   FakeHid away;
   away.path = "/dev/hidraw0";
@@ -294,11 +293,17 @@ TEST(Hid, NoFrameWaitsForASearch) {
   away.product_id = 0x0001;
   away.plugged = false;
   hid_world.devices.push_back(away);
-  std::unique_ptr<Buttons> buttons;
   ErrorLine error;
   const HidDevice wanted = keyboard();
-  ASSERT_TRUE(open_hid_buttons({&wanted, 1}, HidSearch::beside_frames, buttons, error).ok());
+  ASSERT_TRUE(open_hid_buttons({&wanted, 1}, HidSearch::beside_frames, *out, error).ok());
   hid_world.devices.front().plugged = true;
+}
+
+// A search that hangs inside hidapi, as while a hub starts: frames go on, and the device works when
+// the search comes back.
+TEST(Hid, NoFrameWaitsForASearch) {
+  std::unique_ptr<Buttons> buttons;
+  open_then_plug(&buttons);
   hid_world.hangs = true;
   ButtonEvents events;
   std::int64_t now_us = 0;
@@ -323,18 +328,8 @@ TEST(Hid, NoFrameWaitsForASearch) {
 
 // What was found when nobody wants it any more is closed again.
 TEST(Hid, AnAnswerThatNobodyTakesIsClosed) {
-  hid_world = {};
-  FakeHid away;
-  away.path = "/dev/hidraw0";
-  away.vendor_id = 0x1234;
-  away.product_id = 0x0001;
-  away.plugged = false;
-  hid_world.devices.push_back(away);
   std::unique_ptr<Buttons> buttons;
-  ErrorLine error;
-  const HidDevice wanted = keyboard();
-  ASSERT_TRUE(open_hid_buttons({&wanted, 1}, HidSearch::beside_frames, buttons, error).ok());
-  hid_world.devices.front().plugged = true;
+  open_then_plug(&buttons);
   ButtonEvents events;
   EXPECT_EQ(buttons->poll(0, events).code, Code::device_lost);
   EXPECT_EQ(buttons->poll(1'000'000, events).code, Code::device_lost);  // Asks.
